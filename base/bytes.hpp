@@ -8,10 +8,10 @@ namespace azimuth {
 
 using Bytes = std::span<const std::byte>;
 
-/// The same bytes as letters.
+/// A view of `bytes` as characters.
 inline std::string_view as_text(Bytes bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 
-/// The number that begins the bytes, the least significant one first. Of fewer bytes than it has: as if zeros followed.
+/// The little-endian number at the start of `bytes`. Missing bytes count as zero.
 template <class Integer>
 Integer little_endian(Bytes bytes) {
   std::uint64_t value = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// How reading and writing files goes wrong, and their settings: all of it at once, each with its place.
+// Errors of reading and writing files and of settings: all errors at once, each with its position.
 
 #include <cassert>
 #include <cstddef>
@@ -11,37 +11,38 @@
 
 namespace azimuth {
 
-/// One thing wrong with a file, or with an override of the command line.
+/// One error in a file, or in an override on the command line.
 struct FileError {
-  std::string file;  ///< as given to the reader, or the override itself
-  int line = 0;      ///< from 1; 0: the file as a whole
+  std::string file;  ///< As given to the reader, or the override itself
+  int line = 0;      ///< From 1; 0: the whole file
   std::string message;
-  int column = 0;  ///< from 1; 0: the line as a whole
+  int column = 0;  ///< From 1; 0: the whole line
 
-  /// `file:line:column: message`, the form editors jump to; without what is 0. One line, as visible() shows it.
+  /// `file:line:column: message`, the form that editors understand; parts that are 0 are omitted. One line, escaped by
+  /// visible().
   std::string text() const;
 };
 
-/// `what`, and why the system says so.
+/// An error with the text `what` and the system's reason.
 FileError system_error(std::string file, std::string_view what, int error_number);
 
 using FileErrors = std::vector<FileError>;
 
-/// One line each.
+/// One line for each error.
 std::string text(const FileErrors& errors);
 
-/// A value, or everything that stood in its way, which is one error at least. void: whether it was done.
+/// A value, or all the errors that prevented it (at least one). For void: success or the errors.
 template <class T>
 using FileResult = tl::expected<T, FileErrors>;
 
-/// For a function to return that has no value.
+/// The return value of a function that failed.
 inline tl::unexpected<FileErrors> failure(FileErrors errors) {
   assert(!errors.empty());
   return tl::unexpected<FileErrors>(std::move(errors));
 }
 inline tl::unexpected<FileErrors> failure(FileError error) { return failure(FileErrors{std::move(error)}); }
 
-/// Collects what is wrong with one file: the first kMost in full, then only their number.
+/// Collects the errors of one file: the first kMost in full, then only their number.
 class FileErrorList {
  public:
   static constexpr std::size_t kMost = 20;
@@ -53,7 +54,7 @@ class FileErrorList {
   bool empty() const { return count_ == 0; }
   const std::string& file() const { return file_; }
 
-  /// Appends everything to `all`.
+  /// Appends all errors to `all`.
   void move_to(FileErrors& all) &&;
 
  private:

@@ -12,7 +12,7 @@
 namespace azimuth {
 
 FileResult<MappedFile> MappedFile::open(const std::filesystem::path& file) {
-  // Without O_NONBLOCK a named pipe would keep us waiting before we could refuse it.
+  // Without O_NONBLOCK, open() would block on a named pipe, which is refused below.
   const UniqueFd fd(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (!fd) return failure(system_error(file, "cannot be opened", errno));
   struct stat status {};
@@ -22,7 +22,7 @@ FileResult<MappedFile> MappedFile::open(const std::filesystem::path& file) {
   if (size == 0) return MappedFile(Bytes{});
   void* const start = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, fd.get(), 0);
   if (start == MAP_FAILED) return failure(system_error(file, "cannot be read", errno));
-  ::madvise(start, size, MADV_SEQUENTIAL);  // only a hint: failure costs nothing but speed
+  ::madvise(start, size, MADV_SEQUENTIAL);  // Only a hint; a failure costs only speed
   return MappedFile(Bytes(static_cast<const std::byte*>(start), size));
 }
 

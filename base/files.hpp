@@ -1,5 +1,5 @@
 #pragma once
-// Regular files as a whole: mapped, read and written.
+// Whole regular files: mapping, reading and writing.
 //
 // Thread contract: reentrant.
 
@@ -13,8 +13,8 @@
 
 namespace azimuth {
 
-/// The bytes of a regular file as they were when it was opened, mapped into memory. The file may grow meanwhile, which
-/// is not seen, but must not shrink.
+/// The bytes of a regular file, mapped into memory, as they were when it was opened. The file may grow meanwhile, which
+/// has no effect, but it must not shrink.
 class MappedFile {
  public:
   static FileResult<MappedFile> open(const std::filesystem::path& file);
@@ -32,13 +32,13 @@ class MappedFile {
   Bytes bytes_;
 };
 
-/// The whole of a text file. Refuses what is packed, and says how to unpack it.
+/// Reads a whole text file. Refuses a packed file and says how to unpack it.
 FileResult<std::string> read_text_file(const std::filesystem::path& file);
 
 /// Replaces the file's content.
 [[nodiscard]] FileResult<void> write_text_file(const std::filesystem::path& file, std::string_view text);
 
-/// Writes all of `bytes` to a descriptor; 0 or the errno that stopped it.
+/// Writes all of `bytes` to a descriptor; returns 0 or the errno.
 [[nodiscard]] int write_all(int fd, Bytes bytes);
 
 }  // namespace azimuth

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers and texts as bytes one after another, little-endian on every machine.
+// Serialises numbers and texts to bytes, little-endian on every machine.
 
 #include <bit>
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace azimuth {
 
-/// Grows as it is written to. Thread contract: thread-bound.
+/// A growing byte sequence. Thread contract: thread-bound.
 class LittleBytes {
  public:
   template <class Integer>
@@ -25,12 +25,12 @@ class LittleBytes {
   }
   LittleBytes& put(float value) { return put(std::bit_cast<std::uint32_t>(value)); }
   LittleBytes& put(double value) { return put(std::bit_cast<std::uint64_t>(value)); }
-  /// As they are, without their number.
+  /// Appends the bytes without their number in front.
   LittleBytes& raw(std::string_view bytes) {
     bytes_ += bytes;
     return *this;
   }
-  /// Their number in 32 bits, then the bytes.
+  /// Appends the number of bytes in 32 bits, then the bytes.
   LittleBytes& text(std::string_view bytes) { return put(static_cast<std::uint32_t>(bytes.size())).raw(bytes); }
 
   std::size_t size() const { return bytes_.size(); }

@@ -25,7 +25,7 @@ std::string_view packed_as(Bytes begin) {
   const std::string_view text = as_text(begin);
   for (const Beginning& each : kPacked)
     if (text.starts_with(each.bytes)) return each.answer;
-  const bool is_bzip2 = text.starts_with("BZh") && text.substr(4).starts_with("1AY&SY");  // the fourth is a level
+  const bool is_bzip2 = text.starts_with("BZh") && text.substr(4).starts_with("1AY&SY");  // byte 3: level
   return is_bzip2 ? "is compressed by bzip2: bunzip2 it first" : std::string_view();
 }
 

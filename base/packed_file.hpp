@@ -1,5 +1,6 @@
 #pragma once
-// Files that are not what they were taken for: packed, or pointers to what they should hold, or of other programs.
+// Recognition of files that are not what the reader expects: packed files, pointers to other files, files of other
+// programs.
 //
 // Thread contract: reentrant.
 
@@ -9,11 +10,12 @@
 
 namespace azimuth {
 
-/// What to do with a file that begins so before anything can read it, for a person: "is compressed by gzip: gunzip it
-/// first". Empty: it is neither packed nor a pointer.
+/// The advice for a file that starts with `begin` and cannot be read directly, for example "is compressed by gzip:
+/// gunzip it first". Empty if the file is neither packed nor a pointer.
 std::string_view packed_as(Bytes begin);
 
-/// The same of recordings that azimuth import makes runs of: "is a bag of ROS: azimuth import makes a run of it".
+/// The advice for recordings that `azimuth import` converts, for example "is a bag of ROS: azimuth import makes a run
+/// of it".
 std::string_view imported_as(Bytes begin);
 
 }  // namespace azimuth

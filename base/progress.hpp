@@ -4,7 +4,7 @@
 
 namespace azimuth {
 
-/// Told now and then by work that may take long: how much of it is done, in whatever it counts. Empty: nobody listens.
+/// Callback of long work, with the part done and the total in any unit. May be empty.
 using Progress = std::function<void(std::size_t done, std::size_t all)>;
 
 }  // namespace azimuth

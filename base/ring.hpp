@@ -5,13 +5,13 @@
 
 namespace azimuth {
 
-/// A queue of fixed size; when it is full the oldest element gives way.
+/// A queue of fixed capacity; if it is full, a new element replaces the oldest.
 ///
-/// Thread contract: thread-bound. Allocates only what its elements do.
+/// Thread contract: thread-bound. Allocates only what its elements allocate.
 template <class Element, std::size_t Capacity>
 class Ring {
  public:
-  /// False: an element had to give way.
+  /// Returns false if the oldest element was dropped.
   bool push(Element element) {
     const bool room = count_ < Capacity;
     if (!room) {
@@ -21,7 +21,7 @@ class Ring {
     elements_[(first_ + count_++) % Capacity] = std::move(element);
     return room;
   }
-  /// Takes the oldest element out. False: empty, `into` unchanged.
+  /// Removes the oldest element. Returns false and leaves `into` unchanged if the queue is empty.
   bool pop(Element& into) {
     if (count_ == 0) return false;
     into = std::move(elements_[first_]);

@@ -1,6 +1,6 @@
 #pragma once
-// Which sanitizer this is compiled for: AZIMUTH_ADDRESS_SANITIZER, AZIMUTH_THREAD_SANITIZER, or neither. GCC and Clang
-// say it in ways of their own.
+// The sanitizer of this build: defines AZIMUTH_ADDRESS_SANITIZER, AZIMUTH_THREAD_SANITIZER or neither. GCC and Clang
+// announce sanitizers in different ways.
 
 #if defined(__SANITIZE_ADDRESS__)
 #define AZIMUTH_ADDRESS_SANITIZER

@@ -8,7 +8,7 @@
 namespace azimuth {
 namespace {
 
-/// A character and the bytes it takes; of bytes that are no UTF-8 the first, as itself.
+/// A character with its length in bytes. For bytes that are not UTF-8: the first byte, as itself.
 struct Character {
   std::uint32_t code = 0;
   std::size_t bytes = 1;
@@ -32,7 +32,7 @@ Character character_at(std::string_view text) {
   return is_whole ? Character{code, bytes, true} : Character{first, 1, false};
 }
 
-/// A terminal obeys it, or shows what stands elsewhere, or nothing.
+/// Whether a terminal would execute the character, reorder text by it, or show nothing.
 bool is_control(std::uint32_t code) {
   struct Range {
     std::uint32_t first, last;

@@ -1,6 +1,6 @@
 #pragma once
-// What others have written, and people are to read on a terminal or in a journal: names of files, topics, channels and
-// robots, words of the command line. A terminal obeys what is in it, and a line end forges a line.
+// Makes text of foreign origin safe for a terminal or a journal: names of files, topics, channels and robots, and words
+// of the command line. Control characters could command a terminal, and a line end could forge a line.
 //
 // Thread contract: reentrant.
 
@@ -9,11 +9,11 @@
 
 namespace azimuth {
 
-/// One line: control characters, bytes that are no UTF-8, and characters that turn the direction of writing or cannot
-/// be seen as \n, \x1b, \u202e; all else as it is.
+/// Escapes control characters, bytes that are not UTF-8, and characters that are invisible or change the direction of
+/// writing, as \n, \x1b, \u202e. All other characters stay. The result is one line.
 std::string visible(std::string_view text);
 
-/// The same of lines that are ours, with something of others in them: line ends stay.
+/// Like visible(), but keeps the line ends, for a text whose line ends come from this program.
 std::string visible_lines(std::string_view text);
 
 }  // namespace azimuth

@@ -1,4 +1,4 @@
-# Everything comes from Debian 12 packages; scripts/setup installs them.
+# All dependencies are Debian 12 packages, which scripts/setup installs.
 
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(Threads REQUIRED)
@@ -23,7 +23,7 @@ pkg_check_modules(MICROHTTPD REQUIRED IMPORTED_TARGET libmicrohttpd)
 pkg_check_modules(SQLITE REQUIRED IMPORTED_TARGET sqlite3)
 pkg_check_modules(LIBUSB REQUIRED IMPORTED_TARGET libusb-1.0)
 pkg_check_modules(DC1394 REQUIRED IMPORTED_TARGET libdc1394-2)
-# Debian keeps OpenCV's CMake configuration in a package that pulls in all of OpenCV; four libraries are enough.
+# Debian's package with OpenCV's CMake configuration depends on all of OpenCV, but four libraries are enough.
 find_path(OPENCV_INCLUDE_DIR opencv2/features2d.hpp PATH_SUFFIXES opencv4 REQUIRED)
 foreach(part IN ITEMS core imgproc features2d calib3d)
   find_library(OPENCV_${part} opencv_${part} REQUIRED)
@@ -35,7 +35,7 @@ if(AZIMUTH_TESTS)
   find_package(GTest REQUIRED)
 endif()
 
-# The bridge to ROS 2 is optional: it needs Cyclone DDS, and idlc, which makes its messages.
+# The bridge to ROS 2 is optional. It needs Cyclone DDS and idlc, which generates its messages.
 find_program(IDLC idlc)
 find_path(CYCLONEDDS_INCLUDE_DIR dds/dds.h)
 find_library(CYCLONEDDS_LIBRARY ddsc)
@@ -46,7 +46,7 @@ else()
 endif()
 set(AZIMUTH_ROS2 AUTO CACHE STRING "Build azimuth-ros2, the bridge to ROS 2: ON, OFF, or AUTO: where Cyclone DDS is")
 if(AZIMUTH_ROS2 STREQUAL AUTO)
-  set(AZIMUTH_ROS2 ${has_cyclonedds})  # of this run of CMake alone: what is installed later is found
+  set(AZIMUTH_ROS2 ${has_cyclonedds})  # not cached: the next run of CMake searches again
 endif()
 if(AZIMUTH_ROS2 AND NOT has_cyclonedds)
   message(FATAL_ERROR "AZIMUTH_ROS2 needs Cyclone DDS: scripts/setup --ros2 installs cyclonedds-dev and cyclonedds-tools")

@@ -3,53 +3,55 @@
 add_library(azimuth_options INTERFACE)
 target_compile_features(azimuth_options INTERFACE cxx_std_20)
 target_include_directories(azimuth_options INTERFACE ${PROJECT_SOURCE_DIR})
-# Contraction into fused multiply-adds is off, so that a build for another instruction set does not round differently;
-# the one exception is slam/ekf/rank_update*.cpp, which needs their speed.
+# The compiler may not contract operations into fused multiply-adds, so that builds for other instruction sets round
+# equally. The only exception is slam/ekf/rank_update*.cpp, which needs the speed.
 target_compile_options(azimuth_options INTERFACE
   -Wall -Wextra -Wconversion -Wshadow $<$<BOOL:${AZIMUTH_WERROR}>:-Werror> -ffp-contract=off)
-# CMake takes assertions out of whatever it optimises. What is tested has them, and so has what people build.
+# CMake disables assertions in optimised builds. This option keeps them in tests and in users' builds.
 if(AZIMUTH_ASSERTIONS)
   foreach(flags IN ITEMS C_FLAGS_RELEASE C_FLAGS_RELWITHDEBINFO C_FLAGS_MINSIZEREL
                          CXX_FLAGS_RELEASE CXX_FLAGS_RELWITHDEBINFO CXX_FLAGS_MINSIZEREL)
     string(REPLACE "-DNDEBUG" "" CMAKE_${flags} "${CMAKE_${flags}}")
   endforeach()
 endif()
-# Nor may Eigen, which fuses by itself where it is told that arm64 can, and cuts products of large matrices into pieces by the
-# sizes of the processor's caches: their sums would come about in another order on every machine.
+# Eigen may not use fused multiply-adds on arm64 either. Fixed cache sizes keep its block sizes for products of large
+# matrices equal on all machines, and so the order of the sums.
 target_compile_definitions(azimuth_options INTERFACE
   EIGEN_NO_CPUID EIGEN_DEFAULT_L1_CACHE_SIZE=32768 EIGEN_DEFAULT_L2_CACHE_SIZE=262144 EIGEN_DEFAULT_L3_CACHE_SIZE=2097152)
 if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
   target_compile_options(azimuth_options INTERFACE -U__ARM_FEATURE_FMA)
   target_compile_definitions(azimuth_options INTERFACE EIGEN_MATRIXBASE_PLUGIN="cmake/eigen_rounds_as_on_x86.hpp")
 endif()
-# What GCC means by -Wconversion: Clang takes it to be about signs too, where sizes that are differences of iterators are
-# many and harmless.
+# Gives -Wconversion the meaning that it has in GCC. In Clang it includes sign conversions, which are frequent and
+# harmless here (sizes as differences of iterators).
 target_compile_options(azimuth_options INTERFACE $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>)
 if(AZIMUTH_SANITIZE)
-  # What a sanitizer puts in between keeps GCC from seeing that an optional is looked at only when it is there.
+  # The instrumentation of sanitizers causes false warnings of GCC about optionals.
   target_compile_options(azimuth_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   target_compile_options(azimuth_options INTERFACE
     -fsanitize=${AZIMUTH_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(azimuth_options INTERFACE -fsanitize=${AZIMUTH_SANITIZE})
 endif()
-# What these find crashes anyway, or AddressSanitizer finds it; without them the build takes a fifth less time.
+# The faults that these checks find crash anyway, or AddressSanitizer finds them. Without them the build is a fifth
+# faster.
 if(AZIMUTH_SANITIZE MATCHES undefined)
   target_compile_options(azimuth_options INTERFACE -fno-sanitize=null,object-size,vptr)
-  # Named as Ninja's commands see it: a compiler cache would serve one checkout only, else.
+  # The path is relative to Ninja's working folder, so that a compiler cache works for every checkout.
   cmake_path(RELATIVE_PATH CMAKE_CURRENT_LIST_DIR BASE_DIRECTORY ${CMAKE_BINARY_DIR} OUTPUT_VARIABLE from_build)
   target_compile_options(azimuth_options INTERFACE
     $<$<CXX_COMPILER_ID:Clang>:-fsanitize-ignorelist=${from_build}/sanitizer_ignorelist.txt>)
 endif()
-# Headers are what compiling takes time for, Eigen's above all: sources that are compiled together read them once. Tools
-# that look at one file at a time want this off; scripts/tidy does so.
+# Most of the compile time is spent on headers, mainly Eigen's. Sources that are compiled together read them once. Tools
+# that read single files need this off, as in scripts/tidy.
 option(AZIMUTH_UNITS "Compile the sources of each target a few units at a time" ON)
 set(AZIMUTH_UNIT_SOURCES 24 CACHE STRING "Sources of a unit, at most")
 
-# azimuth_compile_together(target): its sources but those with compiler options of their own. Not CMake's UNITY_BUILD:
-# that names sources by absolute paths, and a compiler cache would serve one checkout only.
+# azimuth_compile_together(target): compiles the sources of a target in a few units, except sources with their own
+# compiler options. CMake's UNITY_BUILD uses absolute paths, with which a compiler cache would work for one checkout
+# only.
 function(azimuth_compile_together target)
   if(AZIMUTH_UNITS)
-    # At the end of the folder, when options of single sources are known.
+    # Runs at the end of the folder, when the options of single sources are known.
     cmake_language(EVAL CODE "cmake_language(DEFER CALL azimuth_make_units ${target})")
   endif()
 endfunction()
@@ -87,14 +89,14 @@ function(azimuth_make_units target)
   set_property(TARGET ${target} PROPERTY SOURCES ${alone})
 endfunction()
 
-# Folders whose code the libFuzzer targets drive. libFuzzer is told of every branch taken there; elsewhere that would be
-# told to nobody, and the estimators' arithmetic takes nearly twice the time with it.
-set(AZIMUTH_FUZZED_FOLDERS "^(base|drivers|picture|settings|slam/(camera|perception)|tools/(bag|calibrate|import|log_index|view))(/|$)")
+# Folders whose code the libFuzzer targets run. Only these have coverage instrumentation, because it would nearly double
+# the time of the estimators' arithmetic.
+set(AZIMUTH_FUZZED_FOLDERS "^(base|drivers|settings|slam/(camera|perception)|tools/(bag|calibrate|import|log_index|view))(/|$)")
 
 option(AZIMUTH_OPTIMISE_INPUT_ONLY
   "Leave unoptimised what the libFuzzer targets do not drive: the build takes two thirds of the time, estimators several times theirs" OFF)
 
-# azimuth_library(name SOURCES ... DEPENDS ...): the one library of a folder.
+# azimuth_library(name SOURCES ... DEPENDS ...): adds the library of a folder.
 function(azimuth_library name)
   cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS" ${ARGN})
   if(arg_SOURCES)
@@ -113,19 +115,20 @@ function(azimuth_library name)
   endif()
 endfunction()
 
-# Folders of tests of what takes in bytes from outside. Those have the label `input` too, and the target azimuth_input_tests
-# is all of them: what AddressSanitizer looks at with every change.
-set(AZIMUTH_INPUT_TESTS "^tests/(base|camera|drivers|perception|picture|ros|settings|tools/(bag|calibrate|import|view))(/|$)")
+# Folders with tests of code that reads external bytes. Their tests have the additional label `input`, and the target
+# azimuth_input_tests builds them; AddressSanitizer checks them with every change.
+set(AZIMUTH_INPUT_TESTS "^tests/(base|camera|drivers|perception|settings|tools/(bag|calibrate|import|view))(/|$)")
 add_custom_target(azimuth_input_tests)
 
-# azimuth_discover_cases(program [TEST_FILTER patterns] PROPERTIES ...): ctest lists the cases of a GoogleTest program one by one, each by the
-# name that GoogleTest has for it. A parameter's value would take the place of its name otherwise, and may be anything.
+# azimuth_discover_cases(program [TEST_FILTER patterns] PROPERTIES ...): ctest lists each case of a GoogleTest program
+# by its GoogleTest name. Without NO_PRETTY_VALUES, the value of a parameter, which may be any text, would replace its
+# name.
 function(azimuth_discover_cases program)
   gtest_discover_tests(${program} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES ${ARGN})
 endfunction()
 
-# azimuth_discover_tests(program STATISTICS pattern... NIGHTLY pattern... PROPERTIES ...): all its cases; those of STATISTICS
-# have that label alone, those of NIGHTLY that one too.
+# azimuth_discover_tests(program STATISTICS pattern... NIGHTLY pattern... PROPERTIES ...): lists all cases. Those of
+# STATISTICS have only the label statistics; those of NIGHTLY have the label nightly in addition.
 function(azimuth_discover_tests program)
   if(CMAKE_CROSSCOMPILING)
     azimuth_discover_emulated_tests(${program} ${ARGN})
@@ -148,9 +151,9 @@ function(azimuth_discover_tests program)
   azimuth_discover_cases(${program} ${others} PROPERTIES ${arg_PROPERTIES})
 endfunction()
 
-# azimuth_test(name SOURCES ... DEPENDS ...): a GoogleTest program whose cases ctest lists one by one. STATISTICS: patterns of
-# those that do what others do with many seeds or on many runs, and judge the numbers; they have that label alone.
-# RUNS_PROGRAMS: its cases start the programs, which are all of the project.
+# azimuth_test(name SOURCES ... DEPENDS ...): adds a GoogleTest program whose cases ctest lists one by one. STATISTICS:
+# patterns of the cases that judge statistics over many seeds or runs; they have only this label. RUNS_PROGRAMS: the
+# cases start the programs, so they do not belong to azimuth_input_tests.
 function(azimuth_test name)
   cmake_parse_arguments(arg "RUNS_PROGRAMS" "" "SOURCES;DEPENDS;LABELS;STATISTICS" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
@@ -161,7 +164,7 @@ function(azimuth_test name)
     list(APPEND arg_LABELS input)
     add_dependencies(azimuth_input_tests ${name})
   endif()
-  # A property with an empty value would shift those after it.
+  # An empty value would shift the properties after it.
   set(properties TIMEOUT 600)
   if(arg_LABELS)
     list(APPEND properties LABELS "${arg_LABELS}")

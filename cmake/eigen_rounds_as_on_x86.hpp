@@ -1,6 +1,6 @@
-// Eigen includes this within its class MatrixBase (EIGEN_MATRIXBASE_PLUGIN), when it knows arm64's instructions and has
-// not yet made its products of large matrices of them. Those round once for a product and its sum, and take six rows of
-// a matrix at a time where x86 takes four, by which sums come about in another order.
+// Eigen includes this file within its class MatrixBase (EIGEN_MATRIXBASE_PLUGIN), after the definition of the arm64
+// instructions and before its kernels for products of large matrices. On arm64 these kernels would use fused
+// multiply-adds and process six rows at a time instead of the four on x86, which changes the order of the sums.
 
 #undef EIGEN_HAS_SINGLE_INSTRUCTION_MADD
 // NOLINTBEGIN(cppcoreguidelines-macro-usage): names of functions that Eigen calls

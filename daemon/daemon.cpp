@@ -23,6 +23,7 @@
 #include "drivers/storage/session.hpp"
 #include "settings/configuration.hpp"
 #include "settings/reference.hpp"
+#include "settings/rig.hpp"
 #include "settings/sample_sentence.hpp"
 
 namespace azimuth {
@@ -36,24 +37,30 @@ int refuse(const std::string& violations) {
   return kRefused;
 }
 
-void print_settings(bool all) {
+void print_settings() {
   Configuration configuration;
   DaemonSettings daemon;
   std::vector<Section> sections = configuration_sections(configuration);
   for (Section& section : daemon_sections(daemon)) sections.push_back(std::move(section));
   std::fputs(
-      "# Configuration of azimuthd and azimuth. Keys stand here as comments with their defaults; remove the # before "
+      "# Configuration of azimuthd and azimuth. Each key stands here as a comment with its default; remove the # "
+      "before "
       "a\n"
       "# key to change it. `azimuthd --check-config` names everything that is wrong. Relative paths begin at this "
       "file's\n"
-      "# folder. The tables [daemon] and below are the daemon's alone, `azimuth settings` has the others; the keys of\n"
-      "# rig.toml: `azimuth settings --rig`. What is right as it is for nearly everybody is left out: with --all both\n"
-      "# commands have it.\n\n",
+      "# folder. Only azimuthd reads the tables [daemon] and below. The keys of rig.toml: `azimuthd "
+      "--print-rig-settings`.\n\n",
       stdout);
-  std::fputs(reference(pointers(sections), all ? Tier::expert : Tier::everyday).c_str(), stdout);
+  std::fputs(reference(pointers(sections)).c_str(), stdout);
 }
 
-/// All that a replay needs to start as the estimator does.
+void print_rig_settings() {
+  RigKeys rig;
+  std::vector<Section> sections = rig_sections(rig);
+  std::fputs(reference(pointers(sections)).c_str(), stdout);
+}
+
+/// The documents that a replay needs for an estimator with the same start.
 std::vector<Document> documents(const DaemonSetup& setup) {
   const std::optional<LoadedMap>& map = setup.saved.loaded;
   std::vector<Document> documents{{"rig.toml", setup.origin.rig.toml},
@@ -87,7 +94,7 @@ std::optional<Recorder> recorder(const DaemonSetup& setup, const EventTimes& tim
   return std::optional<Recorder>(std::in_place, setup.daemon.record, documents(setup), times);
 }
 
-/// Only images that are looked at can be recorded.
+/// Only images that perception processes can be recorded.
 bool records_images(const DaemonSetup& setup) {
   return setup.daemon.record.frames != RecordedFrames::none && setup.perception.has_value();
 }
@@ -113,7 +120,7 @@ std::optional<Painter> painter(const DaemonSettings& daemon, const Rig& rig) {
   return std::optional<Painter>(std::in_place, daemon.picture, daemon.publish, rig.camera);
 }
 
-/// Why there are none although they are asked for; empty: there are, or they are not.
+/// Returns why no pictures can be made although they are configured; empty: there is no such trouble.
 std::string picture_trouble(const DaemonSetup& setup) {
   if (setup.daemon.picture.rate_hz <= 0.0 || setup.perception) return {};
   return fmt::format(
@@ -140,8 +147,8 @@ void report(const DaemonSetup& setup) {
   if (!setup.odometry.text.empty()) spdlog::info("{}", setup.odometry.text);
 }
 
-/// Reads everything anew, into `next` if nothing is wrong with it. Returns what is in a few words, each violation
-/// having been logged.
+/// Reads the configuration again, into `next` if nothing is wrong with it. Otherwise logs each error and returns a
+/// short text; empty: success.
 std::string reload(const Options& options, std::optional<DaemonSetup>& next) {
   try {
     FileResult<DaemonSetup> read = read_setup_anew(options);
@@ -173,13 +180,13 @@ EstimatorStage estimator_stage(const DaemonSetup& setup, const EstimatorFactory&
   return {make_estimator(rig, setup.configuration, map), rig, setup.configuration.stage, since};
 }
 
-/// How a pipeline came to its end.
+/// How a pipeline ended.
 struct PipelineOutcome {
-  std::optional<DaemonSetup> next;  ///< to go on with
-  int exit_code = 0;                ///< else
+  std::optional<DaemonSetup> next;  ///< the setup of the next pipeline; none: the daemon ends
+  int exit_code = 0;                ///< used when `next` is empty
 };
 
-/// A recording of which nothing came must not pass for one that was played.
+/// A played recording that gave no step must end with an error.
 int exit_code_of(const PipelineEnd& end) {
   if (!end.played_out || end.steps > 0) return 0;
   const std::string why = sentence(end.samples);
@@ -187,7 +194,7 @@ int exit_code_of(const PipelineEnd& end) {
   return kRefused;
 }
 
-/// Until the daemon is to end, or to go on with another setup.
+/// Runs one pipeline until the daemon is to end, or to continue with another setup.
 PipelineOutcome run_pipeline(DaemonSetup setup, const Options& options, ServiceManager& manager,
                              const EstimatorFactory& make_estimator, std::chrono::steady_clock::time_point started) {
   const DaemonSettings& daemon = setup.daemon;
@@ -234,7 +241,7 @@ int run_with(const Options& options, const EstimatorFactory& make_estimator) {
   }
   FileResult<DaemonSetup> first = read_setup(options);
   if (!first) return refuse(text(first.error()));
-  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file size is the recorder's trouble, not the end of the daemon
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the file size must stop only the recorder, not the daemon
   set_up_logging(first->daemon.log_level);
   ServiceManager manager;
   PipelineOutcome outcome{.next = std::move(first).value()};
@@ -254,7 +261,11 @@ int run_daemon(int argc, char** argv, const EstimatorFactory& make_estimator) {
   const ParsedOptions parsed = parse_options(argc, argv);
   if (parsed.exit_code) return *parsed.exit_code;
   if (parsed.options.print_settings) {
-    print_settings(parsed.options.all_settings);
+    print_settings();
+    return 0;
+  }
+  if (parsed.options.print_rig_settings) {
+    print_rig_settings();
     return 0;
   }
   try {

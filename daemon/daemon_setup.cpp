@@ -14,7 +14,7 @@
 namespace azimuth {
 namespace {
 
-/// What the files say, before anything is made of it.
+/// The contents of the configuration files, before any object is made from them.
 struct Told {
   Configuration configuration;
   DaemonSettings daemon;
@@ -33,7 +33,7 @@ FileResult<Told> read_told(const Options& options) {
   return told;
 }
 
-/// What finds the bearings, if that is to be done here.
+/// Makes the perception stage; none: the samples already contain bearings.
 FileResult<std::optional<PerceptionStage>> perception(const Configuration& configuration, const Origin& origin) {
   if (!origin.needs_perception) return std::optional<PerceptionStage>();
   const Rig& rig = origin.rig.rig;
@@ -44,8 +44,8 @@ FileResult<std::optional<PerceptionStage>> perception(const Configuration& confi
   return std::optional<PerceptionStage>(std::in_place, std::move(front_end), decoded_format(rig.front_end));
 }
 
-/// A robot whose daemon was restarted a moment ago cannot be far from where the map saw it last. In `[map] reach_m`, so
-/// that it is recorded and a replay looks there too.
+/// Limits the relocalisation of a robot whose daemon was restarted a short time ago to the distance that it can have
+/// moved since. The limit is written to `[map] reach_m`, so it is recorded and a replay uses the same one.
 void limit_search(MapStart& start, const MapSnapshot& map, const MapSettings& settings,
                   Duration epoch_minus_monotonic) {
   if (start.pose_known || start.reach_m > 0.0) return;
@@ -83,7 +83,7 @@ FileResult<DaemonSetup> read(const Options& options, bool pose_known) {
   return read_told(options).and_then([&](const Told& told) { return make_setup(told, pose_known); });
 }
 
-/// `origin` null: there is no source of samples.
+/// `origin` null: no source of samples is configured.
 std::string found_right(const Options& options, const Origin* origin) {
   const std::string settings =
       options.config_file.empty() ? "the default settings (no --config FILE is given)" : options.config_file;
@@ -92,7 +92,8 @@ std::string found_right(const Options& options, const Origin* origin) {
   return fmt::format("right: {} and {}; {}", settings, origin->rig.file, origin->description);
 }
 
-/// Of a robot that only localises the map's own pose may be long ago.
+/// When a robot only localises, the pose in the map file may be old. So the start uses located_map(), if odometry was
+/// kept for it.
 void begin_where_it_was(DaemonSetup& setup, const std::filesystem::path& file) {
   std::optional<LoadedMap> map = map_with_robot(*setup.saved.loaded, file);
   if (!map) return;
@@ -141,11 +142,11 @@ void find_odometry(DaemonSetup& setup) {
 
 void go_on_with_map(DaemonSetup& setup, const DaemonSetup& before, Bequest bequest) {
   const Rig& rig = setup.origin.rig.rig;
-  if (!bequest.map && !bequest.lost && before.saved.loaded) {  // no step since the start: what that began from goes on
+  if (!bequest.map && !bequest.lost && before.saved.loaded) {  // no step since the start: its map is used again
     bequest.map = before.saved.loaded->map;
     bequest.pose_known = before.configuration.map.pose_known;
   }
-  // A recording begins anew, so its robot is not where the one before ended.
+  // A recording starts from its own pose, so the robot is not at the last pose of the previous pipeline.
   Configuration going_on = setup.configuration;
   if (bequest.pose_known && !setup.plays()) going_on.map.pose_known = true;
   const bool any = bequest.map && !bequest.map->landmarks.empty();
@@ -159,7 +160,7 @@ void go_on_with_map(DaemonSetup& setup, const DaemonSetup& before, Bequest beque
     setup.saved.status = {.text = fmt::format("goes on with its {} landmarks", map.map.landmarks.size())};
     return;
   }
-  if (setup.saved.loaded) {  // which may have asked for a pose that is known
+  if (setup.saved.loaded) {  // this map may require a known pose
     if (const auto file_unfit = why_unfit(setup.saved.loaded->map, rig, setup.configuration))
       setup.saved = without_map("mapping starts from nothing: " + std::string(*file_unfit));
   } else if (any) {

@@ -13,43 +13,43 @@
 
 namespace azimuth {
 
-/// Everything the daemon was told, checked, and all that is made of it before a thread starts.
+/// The checked configuration, and the objects made from it before any thread starts.
 struct DaemonSetup {
   Configuration configuration;
   DaemonSettings daemon;
   Origin origin;
-  std::optional<PerceptionStage> perception;  ///< none: bearings come ready made
+  std::optional<PerceptionStage> perception;  ///< none: the sources send ready-made bearings
   SavedMap saved;
-  SavedOdometry odometry = {};  ///< once the process that kept it has ended: see find_odometry()
+  SavedOdometry odometry = {};  ///< filled in by find_odometry(), after the process that kept it has ended
 
   bool plays() const { return !daemon.play.run.empty(); }
 };
 
-/// Reads configuration, rig, recording and saved map: all that is wrong with the first of them that is. Opens no
-/// device.
+/// Reads configuration, rig, recording and saved map. On failure, returns all errors of the first of these that is
+/// wrong. Opens no device.
 FileResult<DaemonSetup> read_setup(const Options& options);
 
-/// Likewise while the daemon runs: go_on_with_map() is to follow, so a map that can be started from only by a robot
-/// that knows where it is is no mistake.
+/// Like read_setup(), while the daemon is running. go_on_with_map() must follow, so a saved map that requires a known
+/// pose is no error here.
 FileResult<DaemonSetup> read_setup_anew(const Options& options);
 
-/// For --check-config: a line that says what has been looked at and found right, or all that is wrong. A configuration
-/// without a source of samples is right. A further line for each warning.
+/// For --check-config. Returns one line that tells what was checked and found correct, and one line for each warning;
+/// on failure, all errors. A configuration without a source of samples is correct.
 FileResult<std::string> check_setup(const Options& options);
 
-/// Looks for the odometry that the setup's map goes on with, and gives the odometer its part of it. The last thing
-/// before the start: a pipeline before this one has ended.
+/// Finds the odometry kept beside the setup's map, and gives the odometer its part of it. Call it last before the
+/// start, when any earlier pipeline has ended.
 void find_odometry(DaemonSetup& setup);
 
-/// What a pipeline that ended leaves to the next one.
+/// The state that a pipeline leaves to its successor.
 struct Bequest {
-  std::optional<MapSnapshot> map;  ///< none: no step since the start, or the robot was lost
-  bool pose_known = false;         ///< the robot was where the map says
+  std::optional<MapSnapshot> map;  ///< none: no step was made since the start, or the robot was lost
+  bool pose_known = false;         ///< the map's pose of the robot was correct
   bool lost = false;
 };
 
-/// Lets a setup go on with the map of the one before it if that fits the new rig and estimator; else with the one in
-/// its map file, or from nothing. What becomes of the map is said in `setup.saved.status`.
+/// Makes a setup continue with the map of the previous setup if that map fits the new rig and estimator. Otherwise the
+/// setup uses the map in its map file, or no map. `setup.saved.status` tells which.
 void go_on_with_map(DaemonSetup& setup, const DaemonSetup& before, Bequest bequest);
 
 }  // namespace azimuth

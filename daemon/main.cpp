@@ -7,7 +7,7 @@ namespace {
 
 Helpers threads() {
   return {.make_workers = [](int count) { return std::make_unique<WorkerThreads>(count); },
-          .make_errand = [] { return std::make_unique<ErrandThread>(); }};
+          .make_task_runner = [] { return std::make_unique<TaskThread>(); }};
 }
 
 std::unique_ptr<Estimator> threaded_estimator(const Rig& rig, const Configuration& configuration,

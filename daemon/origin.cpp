@@ -34,7 +34,7 @@ FileResult<RigFile> read_rig_named(const std::string& file) {
   return file_text(file).and_then([&](std::string toml) { return read_rig_text(std::move(toml), file); });
 }
 
-/// Reads images of the run that it keeps for that.
+/// Returns a function that reads the images of `run`, and keeps the run for it.
 ReadFrame frames_of(Run run) {
   struct Images {
     explicit Images(Run from) : run(std::move(from)), images(run) {}
@@ -60,7 +60,7 @@ UsbHelp usb_help(const UsbSettings& usb, const std::shared_ptr<PortResetter>& re
   return {usb.hotplug ? std::make_unique<UsbMonitor>() : nullptr, resetter, client, longest_interval};
 }
 
-/// A session is left open only for a start that can go on with it.
+/// A session is left open only if a later start can continue it, which requires a map file.
 PioneerSettings pioneer_settings(const DaemonSettings& daemon) {
   PioneerSettings settings = daemon.live.pioneer;
   settings.keep_session = settings.keep_session && !daemon.map.file.empty();
@@ -77,7 +77,7 @@ std::unique_ptr<Source> pioneer_source(const DaemonSettings& daemon, Duration ep
   return std::make_unique<PioneerSource>(pioneer_settings(daemon), epoch_minus_monotonic, std::move(help));
 }
 
-/// Where the signals of a base on a CAN bus are.
+/// Finds the signals of a robot base on a CAN bus.
 FileResult<CanLayout> can_layout(const CanSettings& can) {
   std::optional<Dbc> dbc;
   if (!can.dbc.empty()) {
@@ -96,7 +96,7 @@ FileResult<std::unique_ptr<Source>> can_source(const LiveSettings& live, Duratio
   });
 }
 
-/// The source of odometry, and its name for the log.
+/// Adds the source of odometry, and its description for the log.
 [[nodiscard]] FileResult<void> add_odometer(const DaemonSettings& daemon, const std::shared_ptr<PortResetter>& resetter,
                                             Origin& origin) {
   const LiveSettings& live = daemon.live;
@@ -125,7 +125,7 @@ FileResult<std::unique_ptr<Source>> can_source(const LiveSettings& live, Duratio
   return {};
 }
 
-/// Its images have to be of the rig's size; the stamps are put to the middle of the exposure.
+/// The images must have the size given in the rig. The stamps are moved to the middle of the exposure.
 std::unique_ptr<Source> own_camera(const LiveSettings& live, const Rig& rig, StreamOpener open, Duration epoch,
                                    const std::shared_ptr<PortResetter>& resetter) {
   CameraDriverSettings driver = live.own_camera.driver;
@@ -192,7 +192,7 @@ FileResult<Origin> recorded_origin(const DaemonSettings& daemon) {
   Origin origin;
   origin.rig = std::move(rig).value();
   origin.first_stamp = first_stamp(*run);
-  // Recorded bearings are what the robot used; images are looked at when there are none.
+  // Recorded bearings are those that the robot used. Images are processed only when there are no bearings.
   origin.needs_perception = run->bearings.empty() && origin.rig.rig.front_end != FrontEnd::bearings;
   const auto frames = [&] { return fmt::format("{} images", run->frames.size()); };
   origin.description =

@@ -11,26 +11,26 @@
 
 namespace azimuth {
 
-/// rig.toml as text, which is recorded, and as what it says.
+/// rig.toml as text, which is recorded, and as parsed values.
 struct RigFile {
   std::string file;
   std::string toml;
   Rig rig;
 };
 
-/// Where samples come from, and what belongs to them.
+/// The sources of samples and the data that belong to them.
 struct Origin {
   std::vector<std::unique_ptr<Source>> sources;
-  bool needs_perception = false;  ///< the bearings are to be found in images
+  bool needs_perception = false;  ///< true: the bearings must be detected in images
   RigFile rig;
   std::optional<Duration> epoch_minus_monotonic;  ///< none: the stamps are those of a recording
-  Stamp first_stamp{};                            ///< of a recording
+  Stamp first_stamp{};                            ///< first stamp of a recording
   std::string description;
 };
 
-/// The recording that is to be played.
+/// The origin for the recording that is to be played.
 FileResult<Origin> recorded_origin(const DaemonSettings& daemon);
-/// The robot's own sensors, which need not be there yet.
+/// The origin for the robot's own sensors. They need not be connected yet.
 FileResult<Origin> live_origin(const DaemonSettings& daemon);
 
 }  // namespace azimuth

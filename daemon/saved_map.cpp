@@ -65,7 +65,7 @@ MapKeeperStatus started_from(const LoadedMap& map) {
 }
 
 double reach_since(Duration age, const MapSettings& settings) {
-  constexpr double kSlack_m = 1.0;  // where the map saw it is not exact either
+  constexpr double kSlack_m = 1.0;  // the pose in the map is not exact either
   if (age < Duration{0} || settings.recent_s <= 0.0 || to_seconds(age) > settings.recent_s) return 0.0;
   return kSlack_m + settings.fastest_m_per_s * to_seconds(age);
 }

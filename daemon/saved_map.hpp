@@ -9,25 +9,26 @@
 
 namespace azimuth {
 
-/// What the daemon starts with: a map, or the reason for none.
+/// The map that the daemon starts with, or the reason why it has none.
 struct SavedMap {
   std::optional<LoadedMap> loaded;
-  /// Only a robot that knows where it is can start from it, because its odometer has counted on: see find_odometry().
+  /// The map requires a known pose, so a start can use it only if the odometer has continued to count: see
+  /// find_odometry().
   bool needs_pose = false;
   MapKeeperStatus status;
 };
 
-/// Loads what `settings` names, if it is there. A map that is damaged, with the one before it as well, is no reason not
-/// to start mapping, but one to localise; nor is a sound one that only a robot could start from that knows where it is:
-/// a service that was restarted has to run. Neither is overwritten, see write_map() and MapKeeperStatus::unfit. A sound
-/// map of another kind than the estimator's is refused.
+/// Loads the map that `settings` names, if it exists. If both the map and its predecessor are damaged, a start for
+/// mapping continues without a map; a start for localisation fails. The same holds for a sound map that requires a
+/// known pose, because a restarted service must run. Neither kind of map is overwritten: see write_map() and
+/// MapKeeperStatus::unfit. A sound map of another kind than the estimator's is refused.
 FileResult<SavedMap> saved_map(const MapSettings& settings, const Configuration& configuration, const Rig& rig);
 
-/// What is said of a map that the estimator started from.
+/// The status for a map that the estimator has started from.
 MapKeeperStatus started_from(const LoadedMap& map);
 
-/// How far from where its map saw it last a robot can be at most [m], of a map that is `age` old. 0: anywhere, as for
-/// maps that are not recent, or seem to be of the future. Thread contract: reentrant.
+/// Largest distance [m] of a robot from the pose in its map, when the map is `age` old. 0: unlimited, for maps that are
+/// not recent or whose stamp is in the future. Thread contract: reentrant.
 double reach_since(Duration age, const MapSettings& settings);
 
 }  // namespace azimuth

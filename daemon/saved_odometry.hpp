@@ -7,17 +7,17 @@
 
 namespace azimuth {
 
-/// How the robot had gone on from where its map was saved, or the reason why nobody knows.
+/// The motion of the robot since its map was saved, or the reason why it is unknown.
 struct SavedOdometry {
-  std::optional<KeptOdometry> kept;  ///< on this process's clock
+  std::optional<KeptOdometry> kept;  ///< with stamps on this process's clock
   std::string text;                  ///< for a person
 };
 
-/// Of what is kept beside `map`, when that is the map which was kept at `file`. Thread contract: reentrant.
+/// Reads the odometry kept beside `map`, if `map` is the map that was kept at `file`. Thread contract: reentrant.
 SavedOdometry saved_odometry(const LoadedMap& map, const std::filesystem::path& file, const StampClock& clock);
 
-/// The same landmarks as in `map`, the map at `file`, with where a robot was that only localised in it; nothing: none
-/// did, or in another map. Thread contract: reentrant.
+/// Returns the landmarks of `map`, the map at `file`, with the pose of a robot that only localised itself in it. None:
+/// no robot did, or it used another map. Thread contract: reentrant.
 std::optional<LoadedMap> map_with_robot(const LoadedMap& map, const std::filesystem::path& file);
 
 }  // namespace azimuth

@@ -83,7 +83,7 @@ struct Assign {
     return std::nullopt;
   }
 
-  /// Says which polygon, and which of its corners, is wrong: the key's line alone does not.
+  /// The message names the polygon and its corner, since one key can hold many of them.
   Trouble operator()(PixelPolygons* member) const {
     constexpr std::string_view kWanted = "a list of polygons [[u, v], [u, v], [u, v], ...]";
     const toml::array* const array = value.as_array();

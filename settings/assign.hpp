@@ -1,5 +1,5 @@
 #pragma once
-// One TOML value into one key's member. Internal to settings/.
+// Assigns a TOML value to the member of a key. Internal to settings/.
 
 #include <optional>
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace azimuth {
 
-/// Writes the value to the key's member, or says why not and leaves the member alone.
+/// Writes the value to the key's member. Returns a sentence, and leaves the member as it was, when the value is wrong.
 std::optional<std::string> assign(Key& key, const toml::node& value);
 
 /// The kind of a TOML value, in words.

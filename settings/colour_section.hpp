@@ -1,5 +1,5 @@
 #pragma once
-// The tables [colour] and [[colour.class]] of azimuth.toml.
+// The table [[colour.class]] of azimuth.toml.
 
 #include <string>
 #include <vector>
@@ -9,10 +9,10 @@
 
 namespace azimuth {
 
-/// In this order.
-std::vector<Section> colour_sections(ColourSettings& colour);
+/// The table of the colour classes, bound to `colour`, which must outlive the table.
+Section colour_section(ColourSettings& colour);
 
-/// Some classes as they stand in azimuth.toml.
+/// The text of `classes` in the notation of azimuth.toml.
 std::string colour_classes_text(std::vector<ColourClass> classes);
 
 }  // namespace azimuth

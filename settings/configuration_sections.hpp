@@ -1,28 +1,15 @@
 #pragma once
-// The tables of azimuth.toml below its top, each bound to what it sets, which must outlive it. Internal to settings/.
-// Those of colours are in colour_section.hpp.
+// The tables of azimuth.toml, bound to the settings that they fill. Internal to settings/.
+
+#include <vector>
 
 #include "settings/configuration.hpp"
 #include "settings/section.hpp"
 
 namespace azimuth {
 
-/// Of a section that has one.
-inline Key preset_key(Preset& preset, std::string_view help) {
-  return choice<Preset>("preset", preset, {{"default", Preset::recommended}, {"paper", Preset::paper}}, help);
-}
-
-Section fastslam_section(FastSlamSettings& fastslam, FastSlamPreset& preset);
-/// The preset's values.
-FastSlamSettings fastslam_preset(FastSlamPreset preset);
-
-Section health_section(HealthSettings& health);
-Section identity_section(IdentitySettings& identity, Preset& preset);
-Section lamp_ekf_section(LampEkfSettings& lamp_ekf);
-Section lamps_section(LampSettings& lamps);
-Section map_section(MapStart& start);
-Section relocalisation_section(RelocalisationSettings& relocalisation);
-Section sift_section(SiftSettings& sift, Preset& preset);
-Section smoother_section(HindsightSettings& smoother);
+/// Every table of azimuth.toml except that of the colours (colour_section.hpp). `configuration` must outlive the
+/// tables.
+std::vector<Section> estimator_sections(Configuration& configuration);
 
 }  // namespace azimuth

@@ -12,19 +12,19 @@
 namespace azimuth {
 namespace {
 
-/// Looks by which a search can tell places apart.
+/// Whether the landmarks differ in kind, so that a search can tell places apart.
 bool has_several_kinds(const MapSnapshot& map) {
   return std::ranges::any_of(map.landmarks,
                              [&](const MapLandmark& landmark) { return landmark.kind != map.landmarks.front().kind; });
 }
 
-/// Where among landmarks without names the robot is, only the filter finds out, by their kinds.
+/// Whether the pose must be found among landmarks without names. Only the EKF can find it, by the landmarks' kinds.
 bool wants_a_search(const MapSnapshot& map, const Configuration& configuration) {
   return map.names == MapNames::none && !configuration.map.pose_known && has_several_kinds(map);
 }
 
-/// Ready-made bearings, with names or without: there it measured best. A map that stays as it is, and the paper's
-/// values, are the filter's.
+/// Whether by_rig takes the smoother: it measured best with ready-made bearings, with names or without. Only the filter
+/// can keep a map as it is, and only the filter follows the papers' presets.
 bool suits_the_smoother(const Rig& rig, const Configuration& configuration, const MapSnapshot* map) {
   if (map != nullptr && wants_a_search(*map, configuration)) return false;
   return rig.front_end == FrontEnd::bearings && configuration.preset == Preset::recommended &&
@@ -37,49 +37,47 @@ bool sees_a_ceiling(const Rig& rig) {
   return rig.front_end == FrontEnd::lamps || (rig.front_end == FrontEnd::bearings && looks_up(rig.camera.model));
 }
 
-std::string_view estimator_name(const Rig& rig, const Configuration& configuration, const MapSnapshot* map) {
-  for (const std::string_view name : {"ekf", "lamp_ekf", "fastslam", "smoother"})
-    if (configuration.estimator == name) return name;
-  if (sees_a_ceiling(rig)) return "lamp_ekf";
-  return suits_the_smoother(rig, configuration, map) ? "smoother" : "ekf";
+EstimatorKind chosen_estimator(const Rig& rig, const Configuration& configuration, const MapSnapshot* map) {
+  if (configuration.estimator != EstimatorKind::by_rig) return configuration.estimator;
+  if (sees_a_ceiling(rig)) return EstimatorKind::lamp_ekf;
+  return suits_the_smoother(rig, configuration, map) ? EstimatorKind::smoother : EstimatorKind::ekf;
 }
 
 std::unique_ptr<Estimator> configured_estimator(const Rig& rig, const Configuration& configuration,
                                                 const MapSnapshot* map, const Helpers& helpers) {
   return mounted(rig.camera, map, [&](const MapSnapshot* seen_map) {
-    return estimator_of_viewpoint(rig, configuration, seen_map, helpers);
+    return estimator_at_viewpoint(rig, configuration, seen_map, helpers);
   });
 }
 
-std::unique_ptr<Estimator> estimator_of_viewpoint(const Rig& rig, const Configuration& configuration,
+std::unique_ptr<Estimator> estimator_at_viewpoint(const Rig& rig, const Configuration& configuration,
                                                   const MapSnapshot* map, const Helpers& helpers) {
-  const std::string_view name = estimator_name(rig, configuration, map);
   MapStart start = configuration.map;
   start.map = map;
-  if (name == "fastslam")
-    return make_fastslam_estimator(rig, configuration.fastslam, configuration.health, start,
-                                   configuration.ekf.relocalisation);
-  if (name == "lamp_ekf") {
-    LampEkfSettings lamp_ekf = configuration.lamp_ekf;
-    lamp_ekf.health = configuration.health;
-    return make_lamp_ekf_estimator(rig, lamp_ekf, start, configuration.ekf.relocalisation);
+  const HealthSettings& health = configuration.health;
+  const RelocalisationSettings& relocalisation = configuration.relocalisation;
+  switch (chosen_estimator(rig, configuration, map)) {
+    case EstimatorKind::fastslam:
+      return make_fastslam_estimator(rig, configuration.fastslam, start, health, relocalisation);
+    case EstimatorKind::lamp_ekf:
+      return make_lamp_ekf_estimator(rig, configuration.lamp_ekf, start, health, relocalisation);
+    case EstimatorKind::smoother:
+      if (refined_by(rig, configuration) == RefinedBy::filter) return filter_with_hindsight(rig, configuration, map);
+      return make_smoother_estimator(rig, configuration.smoother, start, health, relocalisation, helpers);
+    case EstimatorKind::ekf:
+    case EstimatorKind::by_rig:  // chosen_estimator() never returns it
+      break;
   }
-  if (name == "smoother" && refined_by(rig, configuration) == RefinedBy::filter)
-    return refining_estimator_of_viewpoint(rig, configuration, map);
-  if (name == "smoother")
-    return make_smoother_estimator(rig, configuration.smoother, start, configuration.health,
-                                   configuration.ekf.relocalisation, helpers);
-  EkfSettings ekf = configuration.ekf;
-  ekf.health = configuration.health;
-  return make_ekf_estimator(rig, ekf, start);
+  return make_ekf_estimator(rig, configuration.ekf, start, health, relocalisation);
 }
 
 std::optional<std::string_view> why_unfit(const MapSnapshot& map, const Rig& rig, const Configuration& configuration) {
-  const std::string_view name = estimator_name(rig, configuration, &map);
-  if (name == "fastslam") return why_unfit_for_fastslam(map, rig, configuration.fastslam);
-  if (name == "lamp_ekf") return why_unfit_for_lamp_ekf(map, rig);
-  if (name == "smoother") return why_unfit_for_smoother(map, rig, configuration.smoother, configuration.map);
-  const bool can_search = configuration.ekf.relocalisation.lost_log_odds > 0.0 && has_several_kinds(map);
+  const EstimatorKind chosen = chosen_estimator(rig, configuration, &map);
+  if (chosen == EstimatorKind::fastslam) return why_unfit_for_fastslam(map, rig, configuration.fastslam);
+  if (chosen == EstimatorKind::lamp_ekf) return why_unfit_for_lamp_ekf(map, rig);
+  if (chosen == EstimatorKind::smoother)
+    return why_unfit_for_smoother(map, rig, configuration.smoother, configuration.map);
+  const bool can_search = configuration.relocalisation.lost_log_odds > 0.0 && has_several_kinds(map);
   if (map.names == MapNames::none && !can_search && !configuration.map.pose_known) return kPoseIsNeeded;
   return why_unfit_for_ekf(map, rig);
 }

@@ -10,23 +10,26 @@
 
 namespace azimuth {
 
-/// Lamps above, found here or by whoever sends bearings of a camera that looks up.
+/// Whether the landmarks are lamps above the robot: the front end finds lamps in images, or a camera that looks up
+/// sends ready-made bearings.
 bool sees_a_ceiling(const Rig& rig);
 
-/// What runs: "ekf", "lamp_ekf", "fastslam" or "smoother"; the one that `configuration` names, or the one for the rig
-/// and the map it starts from.
-std::string_view estimator_name(const Rig& rig, const Configuration& configuration, const MapSnapshot* map = nullptr);
+/// The kind of the estimator that runs: the configured kind or, for by_rig, the kind that suits the rig and the map
+/// that the estimator starts from. Never returns by_rig.
+EstimatorKind chosen_estimator(const Rig& rig, const Configuration& configuration, const MapSnapshot* map = nullptr);
 
-/// The estimator of that name, for a rig. It starts from `map`, if there is one, as the table [map] says; that must not
-/// be unfit. `helpers` work for those that have more to do than an image leaves time for.
+/// Makes the chosen estimator for a rig. The estimator starts from `map`, if given, as the table [map] says;
+/// why_unfit() must accept the map. `helpers` are threads for an estimator that cannot compute everything between two
+/// images.
 std::unique_ptr<Estimator> configured_estimator(const Rig& rig, const Configuration& configuration,
                                                 const MapSnapshot* map = nullptr, const Helpers& helpers = {});
 
-/// Likewise of the camera's viewpoint in the robot's place: what MountedEstimator makes one of the robot.
-std::unique_ptr<Estimator> estimator_of_viewpoint(const Rig& rig, const Configuration& configuration,
+/// Makes the same estimator for a camera at the robot's origin. MountedEstimator
+/// transforms the estimator's poses to the robot.
+std::unique_ptr<Estimator> estimator_at_viewpoint(const Rig& rig, const Configuration& configuration,
                                                   const MapSnapshot* map = nullptr, const Helpers& helpers = {});
 
-/// Why that estimator cannot start from `map`; nothing: it can.
+/// Returns why the chosen estimator cannot start from `map`, or nothing if it can.
 std::optional<std::string_view> why_unfit(const MapSnapshot& map, const Rig& rig, const Configuration& configuration);
 
 }  // namespace azimuth

@@ -7,7 +7,7 @@
 namespace azimuth {
 namespace {
 
-/// What a stream gives, but for a little more than kLargestText: devices have no end.
+/// Reads the stream to its end, but stops a little beyond kLargestText, since a device file has no end.
 std::string text_in(std::istream& stream) {
   constexpr std::size_t kPiece = std::size_t{1} << 16U;
   std::string text;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kMaxModelPixels = 1e5;
 
-/// Where the parameter of that key is kept.
+/// The member that the key `name` fills.
 std::optional<double>& member(std::vector<Key>& keys, std::string_view name) {
   const auto key = std::ranges::find(keys, name, &Key::name);
   assert(key != keys.end());
@@ -26,29 +26,31 @@ Key model_key(ModelKeys& keys) {
   for (const ModelRig& model : all_models()) words.emplace_back(name(model), model.index());
   return choice<std::size_t>(
       "model", keys.model, std::move(words),
-      "bearings: directions come ready made; radial: only azimuths are known; mirrors; pajdla, equidistant and "
-      "polynomial: fisheyes.");
+      "Model of the camera. bearings: directions come ready made; radial: only azimuths are known; hyperbolic_mirror "
+      "and parabolic_mirror: mirrors; pajdla, equidistant and polynomial: fisheyes.");
 }
 
 std::vector<Key> parameter_keys(ModelKeys& keys) {
   return {
-      {"a_px", &keys.a_px, "pajdla: a of r = a tan(theta/b) + c sin(theta/d).", from_to(-1e9, 1e9)},
-      {"b", &keys.b, "pajdla: b.", above_to(0, 1e6)},
-      {"c_px", &keys.c_px, "pajdla: c.", from_to(-1e9, 1e9)},
-      {"d", &keys.d, "pajdla: d.", above_to(0, 1e6)},
-      {"mirror_a_mm", &keys.mirror_a_mm, "hyperbolic_mirror: a of z^2/a^2 - r^2/b^2 = 1.", above_to(0, 1e4)},
-      {"mirror_b_mm", &keys.mirror_b_mm, "hyperbolic_mirror: b.", above_to(0, 1e4)},
+      {"a_px", &keys.a_px, "Coefficient a of pajdla: r = a tan(theta/b) + c sin(theta/d).", from_to(-1e9, 1e9)},
+      {"b", &keys.b, "Coefficient b of pajdla.", above_to(0, 1e6)},
+      {"c_px", &keys.c_px, "Coefficient c of pajdla.", from_to(-1e9, 1e9)},
+      {"d", &keys.d, "Coefficient d of pajdla.", above_to(0, 1e6)},
+      {"mirror_a_mm", &keys.mirror_a_mm, "Semi-axis a of hyperbolic_mirror: z^2/a^2 - r^2/b^2 = 1.", above_to(0, 1e4)},
+      {"mirror_b_mm", &keys.mirror_b_mm, "Semi-axis b of hyperbolic_mirror.", above_to(0, 1e4)},
       {"focal_length_px", &keys.focal_length_px,
-       "hyperbolic_mirror: focal length of its camera; equidistant: pixels per radian.", above_to(0, kMaxModelPixels)},
+       "Focal length of the camera of hyperbolic_mirror; for equidistant, pixels per radian.",
+       above_to(0, kMaxModelPixels)},
       {"horizon_radius_px", &keys.horizon_radius_px,
-       "parabolic_mirror: h of r = h tan(pi/4 + elevation/2), the horizon's radius.", above_to(0, kMaxModelPixels)},
+       "Radius h of the horizon of parabolic_mirror: r = h tan(pi/4 + elevation/2).", above_to(0, kMaxModelPixels)},
       {"polynomial_a0", &keys.polynomial_a0,
-       "polynomial (OCamCalib): the angle from the axis is atan2(r, -(a0 + a1 r + ... + a4 r^4)), r in pixels.",
+       "Coefficient a0 of polynomial (OCamCalib): the angle from the axis is atan2(r, -(a0 + a1 r + ... + a4 r^4)), r "
+       "in pixels.",
        from_to(-kMaxModelPixels, -1)},
-      {"polynomial_a1", &keys.polynomial_a1, "polynomial: a1, usually 0.", from_to(-1e3, 1e3)},
-      {"polynomial_a2", &keys.polynomial_a2, "polynomial: a2.", from_to(-1e3, 1e3)},
-      {"polynomial_a3", &keys.polynomial_a3, "polynomial: a3.", from_to(-1e3, 1e3)},
-      {"polynomial_a4", &keys.polynomial_a4, "polynomial: a4.", from_to(-1e3, 1e3)},
+      {"polynomial_a1", &keys.polynomial_a1, "Coefficient a1 of polynomial, usually 0.", from_to(-1e3, 1e3)},
+      {"polynomial_a2", &keys.polynomial_a2, "Coefficient a2 of polynomial.", from_to(-1e3, 1e3)},
+      {"polynomial_a3", &keys.polynomial_a3, "Coefficient a3 of polynomial.", from_to(-1e3, 1e3)},
+      {"polynomial_a4", &keys.polynomial_a4, "Coefficient a4 of polynomial.", from_to(-1e3, 1e3)},
   };
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// The camera's model as rig.toml's table [camera] has it: a word, and the parameters of all models side by side.
+// The camera's model in the table [camera] of rig.toml: the model's name, and the parameters of all models side by
+// side.
 
 #include <cstddef>
 #include <optional>
@@ -11,9 +12,10 @@
 
 namespace azimuth {
 
-/// What the file says; absent: it does not. Parameters of other models than the one that is named may stand there, too.
+/// The model's keys in the file. A parameter is absent if the file does not give it. The file may also give parameters
+/// of models other than the named one.
 struct ModelKeys {
-  std::size_t model = 0;  ///< its kind's index in ModelRig
+  std::size_t model = 0;  ///< index of the model's type in ModelRig
   std::optional<double> a_px, b, c_px, d;
   std::optional<double> mirror_a_mm, mirror_b_mm, focal_length_px, horizon_radius_px;
   std::optional<double> polynomial_a0, polynomial_a1, polynomial_a2, polynomial_a3, polynomial_a4;
@@ -22,12 +24,12 @@ struct ModelKeys {
 Key model_key(ModelKeys& keys);
 std::vector<Key> parameter_keys(ModelKeys& keys);
 
-/// The model with the parameters that are there.
+/// Returns the model with the parameters that `keys` has.
 ModelRig model_of(ModelKeys keys);
-/// As a file would have it.
+/// Returns the keys from which model_of() makes the same model.
 ModelKeys keys_of(ModelRig model);
 
-/// Keys of [camera] without which the model has no meaning.
+/// The keys of [camera] that the model requires.
 std::vector<std::string_view> needed_by(ModelRig model);
 
 }  // namespace azimuth

@@ -15,13 +15,13 @@ namespace {
 constexpr std::size_t kMostCoefficients = 64;
 constexpr double kMaxSide_px = 16384, kMaxShear = 0.1, kMostLeftOut_px = 1.0;
 
-/// All numbers of a text without its comments, or the line of what is none.
+/// All numbers of a text without comments, or the first line with a word that is no number.
 struct Numbers {
   std::vector<double> values;
   int bad_line = 0;  ///< 0: none
 };
 
-/// A number as MATLAB and C print it: "-5.5e+002", "+1".
+/// Reads a number as MATLAB and C print it: "-5.5e+002", "+1".
 std::optional<double> number(std::string_view word) {
   if (word.starts_with('+')) word.remove_prefix(1);
   double value = 0.0;
@@ -56,13 +56,13 @@ Numbers numbers_in(std::string_view text) {
   return numbers;
 }
 
-/// Takes numbers from the front; says so, once, when there are no more.
+/// Takes numbers from the front of a list. enough() is false once a number was missing.
 class Taker {
  public:
   explicit Taker(const std::vector<double>& values) : values_(values) {}
 
   double take() { return at_ < values_.size() ? values_[at_++] : (enough_ = false, 0.0); }
-  /// A count and as many numbers.
+  /// Takes a count, and then that number of values.
   std::vector<double> list() {
     const double count = take();
     if (!(count >= 1.0 && count <= static_cast<double>(kMostCoefficients)) || count != std::floor(count)) {
@@ -99,8 +99,8 @@ std::optional<std::string> problem(const Calibration& read) {
   return std::nullopt;
 }
 
-/// By how much at most c alone, turned, moves a pixel of the image. OCamCalib: row = c x + d y + centre,
-/// column = e x + y + centre, with x and y along rows and columns.
+/// Largest distance in the image between the affine part and its approximation by c and a rotation. OCamCalib has
+/// row = c x + d y + centre, column = e x + y + centre, with x and y along rows and columns.
 double left_out_px(const Calibration& read) {
   const double turn_rad = 0.5 * (read.d / read.c - read.e);
   double most_px = 0.0;

@@ -15,7 +15,7 @@ bool exists_on_disk(const fs::path& path) {
   return fs::exists(path, ignored);
 }
 
-/// There, or to be made in a folder of its own that is there.
+/// Whether the path exists below `folder`, or its parent folder exists so that the file can be made there.
 bool is_found(const fs::path& path, const fs::path& folder, const std::function<bool(const fs::path&)>& exists) {
   return exists(folder / path) || (path.has_parent_path() && exists(folder / path.parent_path()));
 }
@@ -24,7 +24,7 @@ std::string key_name(const Section& section, const Key& key) {
   return section.name.empty() ? std::string(key.name) : fmt::format("{}.{}", section.name, key.name);
 }
 
-/// The warning, if there is one.
+/// Replaces the path in the text by the resolved one. Returns the warning, or an empty text.
 std::string place(const PathText& target, const fs::path& folder) {
   std::string& text = *target.text;
   const std::string_view named = target.path_in(text);

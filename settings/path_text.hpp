@@ -1,5 +1,5 @@
 #pragma once
-// Where the relative paths of a configuration begin.
+// Resolves the relative paths of a configuration.
 
 #include <filesystem>
 #include <functional>
@@ -11,19 +11,20 @@
 
 namespace azimuth {
 
-/// A path that a configuration names, and what is to be told of it.
+/// A resolved path of a configuration, and a warning for the user.
 struct PlacedPath {
   std::filesystem::path path;
-  std::string warning;  ///< empty: nothing
+  std::string warning;  ///< empty: no warning
 };
 
-/// A relative path begins at `folder`. Until the next release one that is found in the working directory only, where it
-/// began in 0.1.0, is still taken from there; `exists` tells whether a path is one of something.
+/// Resolves a relative path from `folder`. In 0.1.0 relative paths began in the working directory: until the next
+/// release, a path that is found only there is still taken from there, with a warning. `exists` tells whether a file or
+/// folder exists.
 PlacedPath placed_path(const std::filesystem::path& path, const std::filesystem::path& folder,
                        const std::function<bool(const std::filesystem::path&)>& exists);
 
-/// Does so for every path that `sections` have been given, `file` being the configuration they were read from. A
-/// warning for each that is to be written differently; it names the key.
+/// Resolves every path that the configuration `file` gave to `sections`. Returns one warning, which names the key, for
+/// each path that should be written differently.
 std::vector<std::string> place_paths(std::span<Section* const> sections, const std::filesystem::path& file);
 
 }  // namespace azimuth

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "settings/assign.hpp"
+#include "settings/retired_keys.hpp"
 #include "settings/suggestion.hpp"
 #include "settings/toml_text.hpp"
 
@@ -17,7 +18,7 @@ Section* find_section(Sections sections, std::string_view name) {
   return found == sections.end() ? nullptr : *found;
 }
 
-/// "daemon" of "daemon.lcm" has no keys of its own, but may be written as a table.
+/// Whether `path` is a section or a parent of one: "daemon" of "daemon.lcm" may be written as a table without keys.
 bool is_section_or_parent(Sections sections, std::string_view path) {
   return std::any_of(sections.begin(), sections.end(), [&](const Section* section) {
     return section->name == path || (section->name.starts_with(path) && section->name.substr(path.size())[0] == '.');
@@ -44,18 +45,23 @@ bool has_key(Section& section, std::string_view key) {
   return element(section, 0).find(key) != nullptr;
 }
 
-/// ": 2.5 deg is 0.0436332 rad", when the value can be converted.
+/// Returns a text such as ": 2.5 deg is 0.0436332 rad", or an empty text if the value cannot be converted.
 std::string conversion(std::string_view key, std::string_view known, const toml::node& value) {
   const auto number = value.is_number() ? value.value<double>() : std::nullopt;
   const auto result = number ? converted(*number, unit_of(key), unit_of(known)) : std::nullopt;
   return result ? fmt::format(": {} {} is {:.6g} {}", *number, unit_of(key), *result, unit_of(known)) : "";
 }
 
-/// Where a key went that had another name once.
+/// A key of an earlier version with its present name.
 struct Moved {
   std::string_view section, key, now;
 };
+constexpr std::string_view kPresetNow = "preset, at the top of the file";
 constexpr Moved kMoved[] = {
+    {"ekf", "preset", kPresetNow},
+    {"fastslam", "preset", kPresetNow},
+    {"identity", "preset", kPresetNow},
+    {"sift", "preset", kPresetNow},
     {"ekf", "relocalise", "relocalisation.lost_log_odds, where 0 stands for false"},
     {"smoother", "calibrate_turn", "odometry.sigma_scale_turn of the rig, where 0 stands for false"},
 };
@@ -65,6 +71,7 @@ std::string unknown_key(Sections sections, const Section& section, std::string_v
   const std::string what = fmt::format("unknown key '{}' {}", key, place);
   for (const Moved& moved : kMoved)
     if (moved.section == section.name && moved.key == key) return fmt::format("{}; it is {} now", what, moved.now);
+  if (is_retired(section.name, key)) return fmt::format("{}; {}", what, kRetiredKey);
   const auto names = key_names(section);
   if (const auto known = same_but_unit(key, names)) {
     return fmt::format("{}; the key is '{}', in {}{}", what, *known, unit_of(*known), conversion(key, *known, value));
@@ -85,7 +92,7 @@ std::string unknown_section(Sections sections, std::string_view path) {
   return fmt::format("unknown section [{}]{}", path, known ? fmt::format("; did you mean [{}]?", *known) : "");
 }
 
-constexpr std::size_t kMostViolations = 100;  // after which nobody reads on
+constexpr std::size_t kMostViolations = 100;  // the walk stops here, since nobody reads more
 
 /// Walks the tree of one file and hands every value to its key.
 struct Walk {
@@ -93,6 +100,7 @@ struct Walk {
   Sections sections;
   std::span<const std::string_view> others;
   FileErrors& violations;
+  std::vector<std::string>* warnings;
 
   void report(const toml::key& at, std::string message) const { report(at.source(), std::move(message)); }
   void report(const toml::source_region& at, std::string message) const {
@@ -107,7 +115,7 @@ struct Walk {
       if (!is_enough()) entry(path, key, value);
   }
 
-  /// Every [[table]] of a list; nothing of what the list held before stays.
+  /// Reads every [[table]] of a list. The tables replace the earlier elements of the list.
   void list(Section& section, const toml::key& key, const toml::node& value) const {
     if (!value.is_array_of_tables()) {
       return report(key, fmt::format("'{0}' must be tables headed [[{0}]], not {1}", section.name, kind_of(value)));
@@ -125,9 +133,15 @@ struct Walk {
     }
   }
 
+  void unknown(const Section& section, const Section& named, const toml::key& key, const toml::node& value) const {
+    const std::string message = unknown_key(sections, section, key.str(), value, describe(named));
+    if (!warnings || !is_retired(named.name, key.str())) return report(key, message);
+    warnings->push_back(fmt::format("{}:{}: {}, and the value is ignored", file, key.source().begin.line, message));
+  }
+
   void member_of(Section& one, const Section& list, const toml::key& key, const toml::node& value) const {
     Key* const known = one.find(key.str());
-    if (!known) return report(key, unknown_key(sections, one, key.str(), value, describe(list)));
+    if (!known) return unknown(one, list, key, value);
     if (auto trouble = assign(*known, value)) report(key, fmt::format("'{}.{}' {}", list.name, key.str(), *trouble));
   }
 
@@ -146,12 +160,12 @@ struct Walk {
     } else if (value.is_table() || !section) {
       report(key, unknown_section(sections, value.is_table() ? child : path));
     } else {
-      report(key, unknown_key(sections, *section, key.str(), value, describe(*section)));
+      unknown(*section, *section, key, value);
     }
   }
 };
 
-/// Reads `text` as a TOML value; a text may come without quotes.
+/// Reads `text` as a TOML value. A value of a text key needs no quotes.
 toml::table override_value(const Key& key, const std::string& text) {
   const ParsedToml parsed = parse_toml("value = " + text, "");
   const bool wants_text = std::holds_alternative<std::string*>(key.target) ||
@@ -166,9 +180,9 @@ toml::table override_value(const Key& key, const std::string& text) {
 }  // namespace
 
 FileErrors read_toml(std::string_view text, const std::string& file, std::span<Section* const> sections,
-                     std::span<const std::string_view> others) {
+                     std::span<const std::string_view> others, std::vector<std::string>* warnings) {
   ParsedToml parsed = parse_toml(text, file);
-  if (parsed.complete) Walk{file, sections, others, parsed.violations}.table(parsed.root, "");
+  if (parsed.complete) Walk{file, sections, others, parsed.violations, warnings}.table(parsed.root, "");
   std::stable_sort(parsed.violations.begin(), parsed.violations.end(), [](const FileError& a, const FileError& b) {
     return std::tie(a.line, a.column) < std::tie(b.line, b.column);
   });

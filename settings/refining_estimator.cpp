@@ -10,10 +10,11 @@
 namespace azimuth {
 namespace {
 
-/// As configured, but for which estimator, and for only finding the robot in its map.
-Configuration changed_for(const Rig& rig, const Configuration& configuration) {
+/// Returns the configuration with the refining estimator, which always extends the map.
+Configuration refining(const Rig& rig, const Configuration& configuration) {
   Configuration changed = configuration;
-  changed.estimator = refined_by(rig, configuration) == RefinedBy::filter ? "by_rig" : "smoother";
+  changed.estimator =
+      refined_by(rig, configuration) == RefinedBy::filter ? EstimatorKind::by_rig : EstimatorKind::smoother;
   changed.map.mode = MapMode::extend;
   return changed;
 }
@@ -37,34 +38,34 @@ std::string how_refined(const Rig& rig, const Configuration& configuration) {
   }
   if (sees_a_ceiling(rig))
     return fmt::format("the path at once; which bearing is of which lamp, and the map, estimator \"{}\" has decided",
-                       refining_estimator_name(rig, configuration));
+                       name(chosen_refining_estimator(rig, configuration)));
   return fmt::format("everything at once; which bearing is of which landmark, estimator \"{}\" has decided",
-                     refining_estimator_name(rig, configuration));
+                     name(chosen_refining_estimator(rig, configuration)));
 }
 
-std::string_view refining_estimator_name(const Rig& rig, const Configuration& configuration) {
-  return estimator_name(rig, changed_for(rig, configuration));
+EstimatorKind chosen_refining_estimator(const Rig& rig, const Configuration& configuration) {
+  return chosen_estimator(rig, refining(rig, configuration));
 }
 
 std::unique_ptr<Estimator> refining_estimator(const Rig& rig, const Configuration& configuration,
                                               const MapSnapshot* map) {
   return mounted(rig.camera, map, [&](const MapSnapshot* seen_map) {
-    return refining_estimator_of_viewpoint(rig, configuration, seen_map);
+    if (refined_by(rig, configuration) == RefinedBy::filter) return filter_with_hindsight(rig, configuration, seen_map);
+    return estimator_at_viewpoint(rig, refining(rig, configuration), seen_map);
   });
 }
 
-std::unique_ptr<Estimator> refining_estimator_of_viewpoint(const Rig& rig, const Configuration& configuration,
-                                                           const MapSnapshot* map) {
-  auto estimator = estimator_of_viewpoint(rig, changed_for(rig, configuration), map);
-  if (refined_by(rig, configuration) != RefinedBy::filter) return estimator;
-  return make_with_hindsight(std::move(estimator), rig, configuration.smoother);
+std::unique_ptr<Estimator> filter_with_hindsight(const Rig& rig, const Configuration& configuration,
+                                                 const MapSnapshot* map) {
+  auto filter = estimator_at_viewpoint(rig, refining(rig, configuration), map);
+  return make_with_hindsight(std::move(filter), rig, configuration.smoother);
 }
 
 std::optional<std::string_view> why_unfit_to_refine(const MapSnapshot& map, const Rig& rig,
                                                     const Configuration& configuration) {
   if (refined_by(rig, configuration) == RefinedBy::filter)
     return "landmarks known by their looks are mapped anew from this drive alone";
-  return why_unfit(map, rig, changed_for(rig, configuration));
+  return why_unfit(map, rig, refining(rig, configuration));
 }
 
 }  // namespace azimuth

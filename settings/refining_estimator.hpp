@@ -1,5 +1,7 @@
 #pragma once
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -9,31 +11,32 @@
 
 namespace azimuth {
 
-/// Who decides, where a whole drive is worked out afterwards, which bearing is of which landmark.
+/// Source of the data association when a whole drive is refined afterwards.
 enum class RefinedBy : std::uint8_t {
-  names,       ///< the sensor does
-  hypotheses,  ///< nobody: landmarks are all alike, so path and map do
-  filter,      ///< landmarks have looks: the estimator for them does, once, and path and map follow
+  names,       ///< the names that bearings carry
+  hypotheses,  ///< association hypotheses that explain all bearings best, since all landmarks look alike
+  filter,      ///< the rig's filter associates once, by the landmarks' looks; path and map are then refined
 };
 
 RefinedBy refined_by(const Rig& rig, const Configuration& configuration);
 
-/// How that is done, for a person.
+/// Returns a sentence, for a person, that says how the drive is refined.
 std::string how_refined(const Rig& rig, const Configuration& configuration);
 
-/// Its name: "smoother", or that of the filter for the rig. Which estimator was configured does not matter.
-std::string_view refining_estimator_name(const Rig& rig, const Configuration& configuration);
+/// The kind of the refining estimator: the smoother, or the filter for the rig, whichever estimator is configured.
+EstimatorKind chosen_refining_estimator(const Rig& rig, const Configuration& configuration);
 
-/// What works out a whole drive, and is to be told that it is over (Estimator::conclude()). It starts from `map`, if
-/// there is one, and makes it better.
+/// Makes the estimator that refines a whole drive. The caller must call Estimator::conclude() at the end of the drive.
+/// The estimator starts from `map`, if given, and improves it.
 std::unique_ptr<Estimator> refining_estimator(const Rig& rig, const Configuration& configuration,
                                               const MapSnapshot* map = nullptr);
 
-/// Likewise of the camera's viewpoint in the robot's place: what MountedEstimator makes one of the robot.
-std::unique_ptr<Estimator> refining_estimator_of_viewpoint(const Rig& rig, const Configuration& configuration,
-                                                           const MapSnapshot* map = nullptr);
+/// Makes the filter for the rig, with a smoother that refines the filter's path and map during the drive. The camera is
+/// at the robot's origin, see estimator_at_viewpoint().
+std::unique_ptr<Estimator> filter_with_hindsight(const Rig& rig, const Configuration& configuration,
+                                                 const MapSnapshot* map = nullptr);
 
-/// Why it cannot start from `map`; nothing: it can.
+/// Returns why refining cannot start from `map`, or nothing if it can.
 std::optional<std::string_view> why_unfit_to_refine(const MapSnapshot& map, const Rig& rig,
                                                     const Configuration& configuration);
 

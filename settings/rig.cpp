@@ -12,41 +12,46 @@ namespace azimuth {
 namespace {
 
 constexpr double kMaxPixels = 1e5;
-constexpr double kMostTilt_rad = 0.8;  // beyond, it looks another way than up
-constexpr double kMaxMount_m = 3.0;    // a robot is a few metres long; what is more are millimetres
+constexpr double kMostTilt_rad = 0.8;  // a camera with a tilt larger than this does not look up
+constexpr double kMaxMount_m = 3.0;    // a robot is a few metres long; a value larger than this is in millimetres
 
 Section top_section(Rig& rig) {
   return {"",
-          "What is fixed on the robot.",
+          "The fixed properties of the robot.",
           {choice<FrontEnd>("front_end", rig.front_end,
                             {{"bearings", FrontEnd::bearings},
                              {"colour", FrontEnd::colour},
                              {"sift", FrontEnd::sift},
                              {"lamps", FrontEnd::lamps}},
-                            "How directions reach the estimator.")}};
+                            "Source of the bearings. bearings: ready made; colour, sift and lamps: from images, by "
+                            "coloured landmarks, image features or lamps.")}};
 }
 
 std::vector<Key> image_keys(ImageRig& image) {
   return {
       {"width_px", &image.width_px, "Width of the image.", from_to(1, kMaxPixels)},
       {"height_px", &image.height_px, "Height of the image.", from_to(1, kMaxPixels)},
-      {"centre_px", &image.centre_px, "Where the optical axis meets the image, [u, v].",
+      {"centre_px", &image.centre_px, "Point where the optical axis meets the image, [u, v].",
        from_to(-kMaxPixels, kMaxPixels)},
-      {"beta", &image.beta, "Height of a pixel over its width.", from_to(0.1, 10)},
+      {"beta", &image.beta, "Height of a pixel divided by its width.", from_to(0.1, 10)},
       {"azimuth_direction", &image.azimuth_direction,
-       "1 or -1: azimuth = direction * atan2(v/beta - v0, u - u0) + azimuth_offset_rad.", from_to(-1, 1)},
+       "Direction of growing azimuths in the image, 1 or -1: azimuth = azimuth_direction * atan2(v/beta - v0, u - u0) "
+       "+ azimuth_offset_rad.",
+       from_to(-1, 1)},
       {"azimuth_offset_rad", &image.azimuth_offset_rad, "Azimuth of the image's u axis.", from_to(-2 * kPi, 2 * kPi)},
       {"viewpoint_height_m", &image.viewpoint_height_m, "Height of the viewpoint above the floor.", above_to(0, 100)},
-      {"sigma_px", &image.sigma_px, "Standard deviation of a detection, along u and along v.", above_to(0, 1000)},
-      {"detection_probability", &image.detection_probability, "Chance that something in view is detected.",
+      {"sigma_px", &image.sigma_px, "Standard deviation of a detection in the image, along u and along v.",
+       above_to(0, 1000)},
+      {"detection_probability", &image.detection_probability, "Probability that something in view is detected.",
        above_to(0, 1)},
-      {"mask_inner_px", &image.mask_inner_px, "Radius about the centre hidden by robot and mounting.",
+      {"mask_inner_px", &image.mask_inner_px, "Radius of the disc about the centre that robot and mounting hide.",
        from_to(0, kMaxPixels)},
       {"mask_outer_px", &image.mask_outer_px, "Radius of the mirror's rim.", above_to(0, kMaxPixels)},
       {"mask_polygons_px", &image.mask_polygons_px,
-       "Hidden as well (struts, cables): polygons of three corners or more, [[[u, v], [u, v], [u, v]], ...].",
+       "Other hidden parts of the image (struts, cables): polygons of three corners or more, [[[u, v], [u, v], [u, "
+       "v]], ...].",
        from_to(-kMaxPixels, kMaxPixels)},
-      {"theta_max_rad", &image.theta_max_rad, "Largest angle from the optical axis the model holds for.",
+      {"theta_max_rad", &image.theta_max_rad, "Largest angle from the optical axis for which the model holds.",
        above_to(0, kPi)},
   };
 }
@@ -54,36 +59,37 @@ std::vector<Key> image_keys(ImageRig& image) {
 std::vector<Key> camera_keys(CameraRig& camera) {
   return {
       {"sigma_bearing_rad", &camera.sigma_bearing_rad, "Standard deviation of one azimuth.", above_to(0, kPi)},
-      {"identities", &camera.identities, "Bearings carry the identity of what was seen."},
+      {"identities", &camera.identities, "Bearings carry the identities of their landmarks."},
       {"field_of_view_rad", &camera.field_of_view_rad, "Full horizontal angle of view; 2 pi: all round.",
        above_to(0, 2 * kPi)},
       {"position_m", &camera.position_m,
-       "Where the camera's viewpoint is on the robot, [x, y]: forward and to the left of the point that odometry is of "
-       "(of a robot with two driven wheels, the middle between them).",
+       "Position of the camera's viewpoint on the robot, [x, y]: forward and to the left of the point whose pose "
+       "odometry reports (on a robot with two driven wheels, the middle between them).",
        from_to(-kMaxMount_m, kMaxMount_m)},
       {"sigma_position_m", &camera.sigma_position_m,
-       "Standard deviation of where the camera's viewpoint is, along each axis; 0: exact.", from_to(0, kMaxMount_m)},
-      {"yaw_offset_rad", &camera.yaw_offset_rad, "Camera's zero azimuth from the robot's heading, counter-clockwise.",
-       from_to(-kPi, kPi)},
+       "Standard deviation of the viewpoint's position on the robot, along each axis; 0: exact.",
+       from_to(0, kMaxMount_m)},
+      {"yaw_offset_rad", &camera.yaw_offset_rad,
+       "Angle from the robot's heading to the camera's azimuth 0, counter-clockwise.", from_to(-kPi, kPi)},
       {"sigma_yaw_rad", &camera.sigma_yaw_rad,
-       "Standard deviation of where the camera's zero azimuth is: 0.05 is one that was mounted by eye, 0.003 one whose "
-       "heading was calibrated from a drive; 0: exact.",
+       "Standard deviation of the direction of the camera's azimuth 0: 0.05 for a camera that was mounted by eye, "
+       "0.003 for one whose heading was calibrated from a drive; 0: exact.",
        from_to(0, 1)},
       {"roll_rad", &camera.roll_rad,
-       "How the camera leans about the robot's x axis, forward; a positive roll lifts the left side. What is seen in "
-       "images is levelled by it, where the model knows elevations.",
+       "Roll of the camera about the robot's x axis (forward); a positive roll lifts the left side. Bearings from "
+       "images are levelled by it, where the model knows elevations.",
        from_to(-kMostTilt_rad, kMostTilt_rad)},
       {"pitch_rad", &camera.pitch_rad,
-       "How the camera leans about the robot's y axis, to the left, after the roll; a positive pitch lowers what is "
-       "ahead.",
+       "Pitch of the camera about the robot's y axis (to the left), after the roll; a positive pitch lowers the front "
+       "side.",
        from_to(-kMostTilt_rad, kMostTilt_rad)},
       {"sigma_tilt_rad", &camera.sigma_tilt_rad,
-       "Standard deviation of roll_rad and of pitch_rad, which the EKFs estimate by lamps and colours, and which is "
-       "noise to features and to fastslam; 0: exact. Not given: 0.02, a camera that was mounted by eye, below lamps, "
-       "and else 0, since a mirror's centre takes up most of a tilt.",
+       "Standard deviation of roll_rad and of pitch_rad. The EKFs estimate the tilt from lamps and colours; with "
+       "features and in fastslam it counts as noise. 0: exact. Not given: 0.02 with lamps (a camera that was mounted "
+       "by eye), else 0, since a mirror's centre takes up most of a tilt.",
        from_to(0, kMostTilt_rad)},
       {"azimuths_clockwise", &camera.azimuths_clockwise,
-       "Bearings that come ready made have azimuths that grow clockwise; of images azimuth_direction says it."},
+       "Azimuths of ready-made bearings grow clockwise; for images, azimuth_direction says which way they grow."},
   };
 }
 
@@ -98,7 +104,7 @@ Section odometry_section(OdometryRig& odometry) {
       "Noise and calibration of the wheel odometry.",
       {
           choice<std::string>("kind", odometry.kind, {{"wheel_pose", "wheel_pose"}},
-                              "wheel_pose: cumulative poses of the odometer."),
+                              "Kind of the readings. wheel_pose: cumulative poses of the odometer."),
           {"lambda_distance_m", &odometry.lambda_distance_m, "Variance of the distance per metre driven [m^2/m].",
            from_to(0, 10)},
           {"lambda_rotation_rad", &odometry.lambda_rotation_rad, "Variance of a turn per radian turned [rad^2/rad].",
@@ -108,31 +114,32 @@ Section odometry_section(OdometryRig& odometry) {
           {"sigma_lateral_m_per_sqrt_m", &odometry.sigma_lateral_m_per_sqrt_m,
            "Sideways slip: standard deviation after one metre.", from_to(0, 10)},
           {"floor_distance_m", &odometry.floor_distance_m,
-           "Standard deviation added to the distance in each step that moved.", from_to(0, 10)},
+           "Standard deviation that each step with motion adds to the distance.", from_to(0, 10)},
           {"floor_rotation_rad", &odometry.floor_rotation_rad,
-           "Standard deviation added to the heading in each step that moved.", from_to(0, kPi)},
-          {"scale_distance", &odometry.scale_distance, "True distance over the reported one.", from_to(0.1, 10)},
-          {"scale_turn", &odometry.scale_turn, "True turn over the reported one.", from_to(0.1, 10)},
+           "Standard deviation that each step with motion adds to the heading.", from_to(0, kPi)},
+          {"scale_distance", &odometry.scale_distance, "True distance divided by the reported one.", from_to(0.1, 10)},
+          {"scale_turn", &odometry.scale_turn, "True turn divided by the reported one.", from_to(0.1, 10)},
           {"drift_rad_per_m", &odometry.drift_rad_per_m, "Heading gained for each metre driven.", from_to(-10, 10)},
           {"sigma_scale_distance", &odometry.sigma_scale_distance,
-           "Standard deviation of scale_distance, as a share of it: map and path may be too large by this, which no "
-           "bearing tells. 0.05 is an odometer that nobody has measured, 0.01 one measured with a tape, 0.003 one "
-           "calibrated over a measured drive of tens of metres.",
+           "Standard deviation of scale_distance, as a share of scale_distance: bearings do not tell whether map and "
+           "path are too large by this. 0.05 for an odometer that nobody has measured, 0.01 for one measured with a "
+           "tape, 0.003 for one calibrated over a measured drive of tens of metres.",
            from_to(0, 0.5)},
-          {"sigma_scale_turn", &odometry.sigma_scale_turn, "Standard deviation of scale_turn, as a share of it.",
-           from_to(0, 0.5)},
+          {"sigma_scale_turn", &odometry.sigma_scale_turn,
+           "Standard deviation of scale_turn, as a share of scale_turn.", from_to(0, 0.5)},
           {"sigma_drift_rad_per_m", &odometry.sigma_drift_rad_per_m, "Standard deviation of drift_rad_per_m; 0: exact.",
            from_to(0, 1)},
-          {"lag_s", &odometry.lag_s, "The pose reported for time t is the robot's at t + lag.", from_to(-10, 10)},
+          {"lag_s", &odometry.lag_s,
+           "Lag of the odometry: the pose reported for time t is the robot's pose at t + lag_s.", from_to(-10, 10)},
           {"sigma_lag_s", &odometry.sigma_lag_s, "Standard deviation of lag_s; 0: exact.", from_to(0, 10)},
           {"clock_drift", &odometry.clock_drift,
-           "By how much lag_s grows in each second since the first reading: of recordings by two clocks.",
-           from_to(-0.1, 0.1)},
-          {"wheels_swapped", &odometry.wheels_swapped, "The odometer reports turns the other way round."},
+           "Growth of lag_s per second since the first reading, for recordings by two clocks.", from_to(-0.1, 0.1)},
+          {"wheels_swapped", &odometry.wheels_swapped,
+           "The wheels are swapped: the odometer reports turns the other way round."},
       }};
 }
 
-/// Without elevations nobody can say what a tilt does to an azimuth.
+/// Refuses a tilt where elevations are unknown: the effect of a tilt on an azimuth depends on the elevation.
 void check_tilt(const CameraRig& camera, const std::string& file, FileErrors& violations) {
   if (tilt_of(camera).is_level() && camera.sigma_tilt_rad.value_or(0.0) == 0.0) return;
   constexpr std::string_view kKeys = "'camera.roll_rad', 'camera.pitch_rad' and 'camera.sigma_tilt_rad'";

@@ -21,7 +21,7 @@ struct StampUnit {
 constexpr std::array<StampUnit, 3> kStampUnits{
     {{"milliseconds", "ms", 1e3}, {"microseconds", "us", 1e6}, {"nanoseconds", "ns", 1e9}}};
 
-/// Both begin and end at about the same times once those of `larger` are divided.
+/// Whether both spans begin and end at about the same times once the stamps of `larger` are divided by `divisor`.
 bool are_alike(const StampSpan& larger, const StampSpan& smaller, double divisor) {
   const double begin_s = to_seconds(larger.first) / divisor, end_s = to_seconds(larger.last) / divisor;
   const double common_s = std::min(end_s, to_seconds(smaller.last)) - std::max(begin_s, to_seconds(smaller.first));
@@ -40,7 +40,7 @@ std::string of_no_use(const SampleFinding& finding) {
   return fmt::format("none of {} images is of use: {}", finding.sets.count, to_string(finding.image));
 }
 
-/// So far from where it was.
+/// The text of a translation and a rotation.
 std::string distance(double metres, double radians) {
   return fmt::format("{:.3g} m and {:.2g} degrees", metres, rad_to_degrees(radians));
 }

@@ -1,6 +1,6 @@
 #pragma once
-// The one table behind every settings struct: reading, ranges, overrides, the printed reference and the shipped
-// configuration all come from it, so a key is written down once.
+// The table of keys behind every settings struct. Reading, ranges, overrides, the printed reference and the shipped
+// configuration all use the table, so each key is defined once.
 
 #include <functional>
 #include <initializer_list>
@@ -16,14 +16,14 @@
 
 namespace azimuth {
 
-/// Values a number may have, both ends included unless `above_low`.
+/// The allowed values of a number, with both ends included unless `above_low`.
 struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
-  bool above_low = false;  ///< `low` itself is refused
+  bool above_low = false;  ///< true: `low` itself is refused
 
   bool contains(double value) const { return (above_low ? value > low : value >= low) && value <= high; }
-  std::string text() const;  ///< "[0, 1]", "(0, 1]", ">= 0"; empty when everything is allowed
+  std::string text() const;  ///< "[0, 1]", "(0, 1]", ">= 0"; empty if every value is allowed
 };
 
 inline Range from_to(double low, double high) { return {low, high, false}; }
@@ -36,64 +36,51 @@ struct Choice {
   std::function<void(std::size_t)> set;
 };
 
-/// A text that is a path, or has one in it: a relative one that a file gives begins at that file's folder, see
-/// place_paths(); one of the command line at the working directory.
+/// A text that is a path or contains one. A relative path in a file begins at the folder of the file, see
+/// place_paths(); a relative path on the command line begins at the working directory.
 struct PathText {
   std::string* text;
-  std::string_view (*path_in)(std::string_view text);  ///< the path, as a part of the text; empty: it has none
+  std::string_view (*path_in)(std::string_view text);  ///< returns the path within the text; empty: the text has none
 };
 
-/// The member a key writes to. An optional one has no default: absent means the file does not say.
+/// The member that a key writes to. An optional member has no default: it is absent if the file does not give the key.
 using Target = std::variant<bool*, int*, double*, std::string*, std::optional<int>*, std::optional<double>*,
                             PixelPoint*, std::optional<PixelPoint>*, PixelPolygons*, Choice, PathText>;
 
-/// Whom a setting is for.
-enum class Tier {
-  everyday,  ///< the owner of a robot may want to change it
-  expert     ///< right as it is, unless one knows what it does inside
-};
-
-/// One setting. Name, unit and help are static text; a name ends in its unit when it has one.
+/// One setting. Name and help are static text; the name ends in the unit, if the setting has one.
 struct Key {
   std::string_view name;
   Target target;
   std::string_view help;
   Range range = {};
-  bool given = false;  ///< by a file or an override, rightly or wrongly
-  Tier tier = Tier::expert;
+  bool given = false;  ///< a file or an override gave the key, with a valid value or not
 
-  /// The member's present value in TOML's notation; empty when absent.
+  /// The member's present value in TOML notation; empty if the member is absent.
   std::string value_text() const;
-  /// Whether the member's present value is allowed (an absent one is).
+  /// Whether the member's present value is allowed. An absent member is.
   bool in_range() const;
-  std::string_view unit() const;  ///< by the name's suffix; empty: a pure number, text or flag
+  std::string_view unit() const;  ///< suffix of the name; empty: a pure number, text or flag
 };
 
-/// The key, for everybody.
-inline Key everyday(Key key) {
-  key.tier = Tier::everyday;
-  return key;
-}
-
-/// A list behind a table that may stand several times, [[name]], once for each element.
+/// The list behind a table [[name]] that a file may give several times, once per element.
 struct Elements {
   std::function<std::size_t()> count;
-  std::function<void(std::size_t)> resize;                  ///< new elements have all defaults
+  std::function<void(std::size_t)> resize;                  ///< new elements have the defaults
   std::function<std::vector<Key>(std::size_t index)> keys;  ///< bound to one element, until the next resize
-  std::function<std::optional<std::string>(std::size_t index)> problem;  ///< what is wrong with one as a whole
+  std::function<std::optional<std::string>(std::size_t index)> problem;  ///< what is wrong with an element as a whole
 };
 
-/// The keys of one TOML table, bound to the struct they fill.
+/// The keys of one TOML table, bound to the struct that they fill.
 struct Section {
   std::string_view name;  ///< dotted, e.g. "daemon.lcm"; empty: the top of the file
   std::string_view help;
-  std::vector<Key> keys;               ///< none when there are elements
-  std::optional<Elements> elements{};  ///< a file that has any replaces all that are there
+  std::vector<Key> keys;               ///< empty if there are elements
+  std::optional<Elements> elements{};  ///< the elements in a file replace all present ones
 
   Key* find(std::string_view key);
 };
 
-/// A key for an enum (or anything comparable) with its words.
+/// Makes a key for an enum, or any comparable type, with its words.
 template <class T>
 Key choice(std::string_view name, T& member, std::vector<std::pair<std::string_view, T>> options,
            std::string_view help) {
@@ -111,13 +98,13 @@ Key choice(std::string_view name, T& member, std::vector<std::pair<std::string_v
 /// The keys of all `groups`, in their order.
 std::vector<Key> joined(std::initializer_list<std::vector<Key>> groups);
 
-/// A key whose text is a path as a whole, or empty.
+/// Makes a key whose whole text is a path, or empty.
 inline Key path_key(std::string_view name, std::string& member, std::string_view help) {
   return {name, PathText{&member, [](std::string_view text) { return text; }}, help};
 }
 
-/// A table of lists. `keys_of` names the keys of one element, `problem` sees the elements up to and including the one
-/// in question.
+/// Makes the table of a list. `keys_of` returns the keys of one element. `problem` gets the elements up to and
+/// including the one to judge.
 template <class T>
 Section list_section(std::string_view name, std::string_view help, std::vector<T>& list,
                      std::vector<Key> (*keys_of)(T&), std::optional<std::string> (*problem)(std::span<const T>)) {
@@ -129,13 +116,13 @@ Section list_section(std::string_view name, std::string_view help, std::vector<T
                    [&list, problem](std::size_t index) { return problem(std::span<const T>(list).first(index + 1)); }}};
 }
 
-/// The keys of an element, as a table of its own.
+/// One element of a list as a table.
 Section element(const Section& list, std::size_t index);
 
-/// The addresses of `sections`, the form in which tables of several owners are passed together.
+/// The addresses of `sections`, so that tables of several owners can be passed together.
 std::vector<Section*> pointers(std::vector<Section>& sections);
 
-/// Copies the value of every key that was `given` in `from` to the same key of `to`; both come from one table.
+/// Copies the value of every `given` key of `from` to the same key of `to`. Both sections come from one table.
 void copy_given(const Section& from, Section& to);
 
 }  // namespace azimuth

@@ -12,11 +12,11 @@ namespace {
 
 struct Unit {
   std::string_view name;
-  char dimension;  ///< a: angle, l: length, t: time, f: frequency, other letters: themselves only
+  char dimension;  ///< a: angle, l: length, t: time, f: frequency; units convert only to units of the same letter
   double in_base;
 };
 
-// Longer names first where one ends in the other, so that "rad2_per_m" is not read as "m".
+// Where one name ends in another, the longer one comes first, so that "rad2_per_m" is not read as "m".
 constexpr auto kUnits = std::to_array<Unit>({
     {"m_per_sqrt_m", 'r', 1.0},
     {"rad2_per_m", 'd', 1.0},
@@ -59,7 +59,7 @@ std::string_view without_unit(std::string_view key) {
   return unit.empty() ? key : key.substr(0, key.size() - unit.size() - 1);
 }
 
-/// Small ones, without the dashes of an option.
+/// The word in lower case, without the dashes of an option.
 std::string letters_of(std::string_view word) {
   word.remove_prefix(std::min(word.find_first_not_of('-'), word.size()));
   std::string letters(word);
@@ -67,7 +67,8 @@ std::string letters_of(std::string_view word) {
   return letters;
 }
 
-/// Slips in a word of so many letters: a third of them. Of two letters or one, another word is as near as this one.
+/// Largest edit distance to a suggestion for a word of `letters` letters. It is 0 for one or two letters, since any
+/// other word is as near as the right one.
 std::size_t forgivable(std::size_t letters) { return letters / 3; }
 
 }  // namespace
@@ -90,7 +91,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::optional<std::string_view> nearest(std::string_view word, std::span<const std::string_view> known) {
-  constexpr std::size_t kLongestWord = 100;  // a longer one is not a slip of the pen
+  constexpr std::size_t kLongestWord = 100;  // a word longer than this is no typing error
   if (word.size() > kLongestWord) return std::nullopt;
   const std::string meant = letters_of(word);
   std::optional<std::string_view> best;

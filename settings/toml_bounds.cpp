@@ -8,13 +8,13 @@
 namespace azimuth {
 namespace {
 
-/// Goes over TOML as far as texts, comments, dots and brackets are concerned. On all that is valid it agrees with the
-/// library to the letter, and what comes after a mistake the library does not read.
+/// Scans TOML for texts, comments, dots and brackets only. On valid TOML the scan agrees with the library exactly. The
+/// scan may differ after a syntax error, where the library stops reading.
 class LevelCounter {
  public:
   explicit LevelCounter(std::string_view text) : rest_(text) {}
 
-  /// The line of the first place that is too deep; 0: none is.
+  /// The first line that is too deep, or 0.
   int too_deep() {
     while (!rest_.empty()) {
       const char c = rest_.front();
@@ -50,7 +50,7 @@ class LevelCounter {
     rest_.starts_with(thrice) ? skip_long_text(thrice) : skip_line_text(quote);
   }
 
-  /// A text that its line does not end is a mistake, after which the library goes on with the next line.
+  /// Skips a text up to the closing quote or the end of the line. A text without a closing quote is a syntax error.
   void skip_line_text(char quote) {
     const std::size_t line_end = std::min(rest_.find('\n'), rest_.size());
     std::size_t at = 1;
@@ -58,7 +58,7 @@ class LevelCounter {
     skip(std::min(at + 1, line_end));
   }
 
-  /// Up to five quotes end it: two may be its own.
+  /// Skips a text in triple quotes. Up to five quotes end it, since its content may end in two quotes.
   void skip_long_text(const std::string& thrice) {
     std::size_t at = thrice.size();
     while (at < rest_.size() && !rest_.substr(at).starts_with(thrice)) at += is_escape(at, thrice[0]) ? 2 : 1;
@@ -71,8 +71,8 @@ class LevelCounter {
 
   std::string_view rest_;
   int line_ = 1;
-  int dots_ = 0;  // of the key
-  int open_ = 0;  // brackets
+  int dots_ = 0;  // dots in the present key
+  int open_ = 0;  // open brackets
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
-// What a text must keep to before the TOML library sees it, whose stack grows with the levels of a key. Internal to
-// settings/.
+// Limits on a text before the TOML library parses it, since the library's stack grows with the levels of a key.
+// Internal to settings/.
 
 #include <cstddef>
 #include <optional>
@@ -11,10 +11,11 @@
 
 namespace azimuth {
 
-inline constexpr int kMostTomlLevels = 32;  ///< of one key, and of lists and tables in values; ours have four
+/// Largest number of levels of one key, and of lists and tables in values. Azimuth's own files have four levels.
+inline constexpr int kMostTomlLevels = 32;
 
-/// What forbids reading a text, with its line; nothing for one that is no larger than kLargestSettings and no deeper
-/// than kMostTomlLevels.
+/// Returns why the text must not be parsed, with the line: it is larger than kLargestSettings or deeper than
+/// kMostTomlLevels. Returns nothing for a text within both limits.
 std::optional<FileError> beyond_toml_bounds(std::string_view text, const std::string& file);
 
 }  // namespace azimuth

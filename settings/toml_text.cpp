@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kMaxSyntaxErrors = 20;
 
-/// Start and length of a line (from 1) without its line end; a length of 0 when there is no such line.
+/// Start and length of a line without its line end; a length of 0 if there is no such line.
 struct LineSpan {
   std::size_t start = 0, length = 0;
 };
@@ -24,7 +24,7 @@ LineSpan find_line(std::string_view text, unsigned line) {
   return {start, std::min(text.find('\n', start), text.size()) - start};
 }
 
-/// Whether the line holds a whole `key = value`, so that leaving it out takes nothing else along.
+/// Whether the line holds a whole `key = value`, so that it can be left out without damage to other lines.
 bool is_assignment(std::string_view line) {
   const std::size_t first = line.find_first_not_of(" \t");
   if (first == std::string_view::npos || line[first] == '[' || line[first] == '#') return false;
@@ -32,12 +32,12 @@ bool is_assignment(std::string_view line) {
          std::count(line.begin(), line.end(), '[') == std::count(line.begin(), line.end(), ']');
 }
 
-/// A text over several lines may have swallowed what looks like a key.
+/// Whether the TOML contains a text over several lines, which may hold lines that look like keys.
 bool has_long_text(std::string_view text) {
   return text.find("\"\"\"") != std::string_view::npos || text.find("'''") != std::string_view::npos;
 }
 
-/// Reads; on a syntax error adds it to `parsed` and returns the line it is in, else 0.
+/// Parses the text. Adds a syntax error to `parsed` and returns its line; returns 0 on success.
 unsigned try_parse(std::string_view text, const std::string& file, ParsedToml& parsed) {
   try {
     parsed.root = toml::parse(text);
@@ -66,7 +66,7 @@ ParsedToml parse_toml(std::string_view text, const std::string& file) {
     if (has_long_text(remaining)) break;
     const LineSpan line = find_line(remaining, bad_line);
     if (!is_assignment(std::string_view(remaining).substr(line.start, line.length))) break;
-    // Blanks keep the places of everything else.
+    // Blanks keep the line numbers and columns of everything else.
     std::fill_n(remaining.begin() + static_cast<std::ptrdiff_t>(line.start), line.length, ' ');
   }
   parsed.complete = false;

@@ -1,5 +1,5 @@
 #pragma once
-// TOML text to a tree, going on after a bad line. Internal to settings/.
+// Parses TOML text into a tree and continues after a bad line. Internal to settings/.
 
 #include <string>
 #include <string_view>
@@ -9,15 +9,16 @@
 
 namespace azimuth {
 
-/// A tree and what is wrong with its syntax.
+/// The parsed tree, and the syntax errors.
 struct ParsedToml {
   toml::table root;
   FileErrors violations;
-  bool complete = true;  ///< false: text was lost whose keys cannot be judged, so check nothing further
+  bool complete = true;  ///< false: the tree lacks keys of the text, so its content must not be checked
 };
 
-/// The TOML library stops at the first error. A bad or repeated `key = value` line is reported, left out and the rest
-/// parsed again, so that one slip does not hide the others. A text that is too large or too deep for it is not parsed.
+/// Parses the text. The TOML library stops at the first error; therefore the function reports a bad or repeated
+/// `key = value` line, blanks it and parses the rest again, so that one error does not hide the others. A text beyond
+/// the limits of toml_bounds.hpp is not parsed.
 ParsedToml parse_toml(std::string_view text, const std::string& file);
 
 }  // namespace azimuth

@@ -5,8 +5,8 @@
 
 namespace azimuth {
 
-/// The keys that are `given`, at their present values, below the table's header; all of a list, whether given or not.
-/// Reads as itself.
+/// Writes the `given` keys at their present values below the table's header, or all elements and keys of a list.
+/// Reading the text gives the same values.
 std::string toml_text(const Section& section);
 
 }  // namespace azimuth

@@ -12,7 +12,7 @@ set(AZIMUTH_NOT_EMULATED
   "starts the programs, which only an emulator can here: the tests arm64.* do"
   "(daemon/daemon_test|sim/azimuth_sim/azimuth_sim_process_test|tools/import/tools_import_bag_test)/.*"
   "starts the programs, which only an emulator can here: the tests arm64.* do"
-  "(daemon/(end_to_end|field_log)|ros2/ros2_[a-z_]*|tools/page/[a-z_]*_(page|in_browser))"
+  "(daemon/(end_to_end|field_log)|tools/ros2/ros2_[a-z_]*|tools/page/[a-z_]*_(page|in_browser))"
   "starts the programs, which only an emulator can here: the tests arm64.* do"
 
   "(drivers/lcm/lcm_network|daemon/lcm_source|daemon/record/full_disk)"

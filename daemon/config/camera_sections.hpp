@@ -1,5 +1,5 @@
 #pragma once
-// The tables of cameras that belong to the daemon.
+// The tables of cameras that the daemon opens itself.
 
 #include "base/file_result.hpp"
 #include "drivers/camera/camera_driver.hpp"
@@ -8,7 +8,7 @@
 
 namespace azimuth {
 
-/// What is the same for every kind of camera of the daemon's own.
+/// The settings that are the same for every kind of camera that the daemon opens itself.
 struct OwnCameraSettings {
   CameraDriverSettings driver;
   double latency_s = 0.0;  ///< from the middle of the exposure to the device's stamp
@@ -19,7 +19,7 @@ Section own_camera_section(OwnCameraSettings& camera);
 /// [daemon.v4l2]
 Section v4l2_section(V4l2Settings& v4l2);
 
-/// What no single key's range can tell.
+/// Errors that the range of a single key cannot find.
 FileErrors check(const V4l2Settings& v4l2);
 
 }  // namespace azimuth

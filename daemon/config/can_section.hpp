@@ -6,7 +6,7 @@
 
 namespace azimuth {
 
-/// The tables of a base on a CAN bus, bound to `can`, which must outlive them.
+/// The tables of a robot base on a CAN bus, bound to `can`, which must outlive them.
 std::vector<Section> can_sections(CanSettings& can);
 
 }  // namespace azimuth

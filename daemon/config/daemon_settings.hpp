@@ -22,27 +22,29 @@ enum class LogLevel { debug, info, warning, error };
 /// The source that plays a recording.
 struct PlaySettings {
   std::string run;     ///< run folder or LCM log; empty: none configured
-  double speed = 1.0;  ///< times the recording's own pace; 0: as fast as possible
-  bool hold = false;   ///< keep running when the recording has ended
+  double speed = 1.0;  ///< multiple of the recording's own pace; 0: as fast as possible
+  bool hold = false;   ///< keep running after the end of the recording
 };
 
 enum class OdometerKind { none, pioneer, can, lcm, fifo };
 enum class CameraKind { none, shared, v4l2, iidc, lcm };
 
-/// What USB may do for cameras and serial adapters.
+/// How USB hotplug and USB resets are used for cameras and serial adapters.
 struct UsbSettings {
-  bool hotplug = true;          ///< wake sources when something is plugged in, instead of at their next try
-  bool reset = true;            ///< reset the port of a device that hangs, at most once a minute
-  double reset_after_s = 10.0;  ///< silence of a serial adapter that counts as hanging; cameras have their own
+  bool hotplug = true;  ///< wake sources when a device is plugged in, instead of at their next attempt
+  bool reset = true;    ///< reset the port of a hanging device, at most once a minute
+  /// A serial adapter that is silent for this long counts as hanging. Cameras have a setting of their own.
+  double reset_after_s = 10.0;
 };
 
-/// The robot's own sensors, used when nothing is played.
+/// The robot's own sensors. Used when no recording is played.
 struct LiveSettings {
   OdometerKind odometer = OdometerKind::none;
   CameraKind camera = CameraKind::none;
-  std::string camera_socket = "/run/azimuth/camera.sock";  ///< of a shared camera
-  double camera_silent_s = 1.0;                            ///< one that sends nothing for so long is in trouble
-  OwnCameraSettings own_camera;                            ///< not for a shared one
+  std::string camera_socket = "/run/azimuth/camera.sock";  ///< socket of a shared camera
+  /// A shared camera that sends nothing for this long is reported as silent.
+  double camera_silent_s = 1.0;
+  OwnCameraSettings own_camera;  ///< not used for a shared camera
   V4l2Settings v4l2;
   IidcSettings iidc;
   PioneerSettings pioneer;
@@ -52,9 +54,9 @@ struct LiveSettings {
   FifoSettings fifo;
 };
 
-/// What the daemon is told beside the estimator's configuration: the tables under [daemon].
+/// The daemon's own settings: the tables under [daemon].
 struct DaemonSettings {
-  std::string rig;  ///< rig.toml; empty: the recording's own
+  std::string rig;  ///< path of rig.toml; empty: the recording's own rig
   LiveSettings live;
   PlaySettings play;
   RecordSettings record;
@@ -62,14 +64,15 @@ struct DaemonSettings {
   PublishSettings publish;
   PictureSettings picture;
   ThreadSettings threads;
-  bool lock_memory = false;  ///< no page of the process is ever swapped out
+  bool lock_memory = false;  ///< keep all pages of the process in memory
   LogLevel log_level = LogLevel::info;
 };
 
 /// The tables of azimuth.toml under [daemon], bound to `settings`, which must outlive them.
 std::vector<Section> daemon_sections(DaemonSettings& settings);
 
-/// What no single key's range can tell: an LCM provider that does not exist, a prefix that makes channels too long.
+/// Errors that the range of a single key cannot find, such as an unknown LCM provider or a prefix that makes channel
+/// names too long.
 FileErrors check(const DaemonSettings& settings);
 
 }  // namespace azimuth

@@ -10,7 +10,7 @@ namespace azimuth {
 /// [daemon.iidc]
 Section iidc_section(IidcSettings& iidc);
 
-/// Texts that mean nothing, whatever the camera.
+/// Errors in texts that are not valid for any camera.
 FileErrors check(const IidcSettings& iidc);
 
 }  // namespace azimuth

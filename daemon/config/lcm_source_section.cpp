@@ -25,23 +25,17 @@ bool is_own_channel(const std::string& name, const PublishSettings& publish) {
 }  // namespace
 
 Section lcm_source_section(LcmSourceSettings& source) {
-  return {
-      "daemon.lcm_source",
-      "Samples that another process sends over LCM, for daemon.live. Whoever may send to the group is believed: for "
-      "trusted networks only.",
-      {everyday({"url", &source.url, "Multicast group to listen to, udpm://GROUP:PORT."}),
-       everyday({"frames_channel", &source.frames_channel, "Channel of images: image_t, as of bot_core."}),
-       everyday({"odometry_channel", &source.odometry_channel,
-                 "Channel of odometry: odometry_t, or pose_t as of bot_core, in any frame that does not jump."}),
-       everyday(choice<LcmStampKind>(
-           "stamps", source.stamps, {{"sender", LcmStampKind::sender}, {"receipt", LcmStampKind::receipt}},
-           "sender: as the messages say, by this machine's clock; receipt: when they arrive, for "
-           "senders with another clock, or a log being played.")),
-       {"max_age_s", &source.max_age_s, "A sample that is older when it arrives is dropped.", above_to(0, 60)},
-       {"max_frame_mb", &source.max_frame_mb, "Larger images are dropped; six times that is set aside.",
-        above_to(0, 64)},
-       {"silent_s", &source.silent_s, "A sender silent for so long is in trouble, and another may take over.",
-        above_to(0, 60)}}};
+  return {"daemon.lcm_source",
+          "Samples that another process sends over LCM, for daemon.live. The daemon believes everyone who can send to "
+          "the group: for trusted networks only.",
+          {{"url", &source.url, "Multicast group to listen to, udpm://GROUP:PORT."},
+           {"frames_channel", &source.frames_channel, "Channel of images: image_t, as of bot_core."},
+           {"odometry_channel", &source.odometry_channel,
+            "Channel of odometry: odometry_t, or pose_t as of bot_core, in any frame that does not jump."},
+           choice<LcmStampKind>(
+               "stamps", source.stamps, {{"sender", LcmStampKind::sender}, {"receipt", LcmStampKind::receipt}},
+               "Stamps of the samples. sender: the stamps in the messages, by this machine's clock; receipt: the time "
+               "of arrival, for senders with another clock, or for a log that is played.")}};
 }
 
 FileErrors check(const LcmSourceSettings& source, const PublishSettings& publish) {

@@ -9,7 +9,7 @@ namespace azimuth {
 /// The table [daemon.lcm_source].
 Section lcm_source_section(LcmSourceSettings& source);
 
-/// An address that cannot be listened to, channels that cannot be, and above all those that the daemon itself sends on.
+/// Errors: an address that cannot be listened to, invalid channel names, and channels on which the daemon itself sends.
 FileErrors check(const LcmSourceSettings& source, const PublishSettings& publish);
 
 }  // namespace azimuth

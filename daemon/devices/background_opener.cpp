@@ -6,7 +6,7 @@
 namespace azimuth {
 namespace {
 
-/// A stream that is closed by the thread that opened it.
+/// A wrapped stream. Its destructor hands the real stream to the opener's thread, which closes it.
 class LentStream final : public ImageStream {
  public:
   LentStream(std::unique_ptr<ImageStream> stream, std::shared_ptr<BackgroundOpener::Desk> desk)
@@ -54,7 +54,7 @@ OpenedStream BackgroundOpener::open() {
   return opened;
 }
 
-/// The device is dealt with while the desk is free.
+/// The mutex is released while the thread opens or closes a device.
 void BackgroundOpener::run() {
   Desk& desk = *desk_;
   std::unique_lock lock(desk.mutex);

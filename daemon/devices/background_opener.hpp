@@ -10,13 +10,13 @@
 
 namespace azimuth {
 
-/// Opens and closes a camera's streams on a thread of its own: a device that hangs lets either wait for seconds, which
-/// its source's thread, whose heart beats for the watchdog, cannot afford.
+/// Opens and closes a camera's streams on a thread of its own. A hanging device can block either call for seconds, and
+/// the source's thread must send heartbeats for the watchdog.
 ///
-/// Streams come wrapped: destroying one hands it to that thread. It closes what it was given before it opens anything,
-/// so a camera is never open twice.
+/// The streams are wrapped: destroying one hands the real stream to that thread. The thread closes all such streams
+/// before it opens another, so a camera is never open twice.
 ///
-/// Thread contract: open() and the streams belong to one thread. Destruction waits for the device.
+/// Thread contract: open() and the streams belong to one thread. The destructor waits for the device.
 class BackgroundOpener {
  public:
   explicit BackgroundOpener(StreamOpener open);
@@ -24,15 +24,16 @@ class BackgroundOpener {
   BackgroundOpener& operator=(const BackgroundOpener&) = delete;
   ~BackgroundOpener();
 
-  /// As CameraDriver expects it: begins an opening, and gives what became of it when that is known. Does not block.
+  /// The function for CameraDriver: starts to open the camera, and returns the result once it is known. Does not block.
   OpenedStream open();
 
-  /// What the two threads share. Lives as long as any stream.
+  /// The data shared by the two threads. It lives as long as any stream.
   struct Desk {
     std::mutex mutex;
     std::condition_variable work;
-    bool opening = false;  ///< asked for, and not fetched yet
-    bool begun = false;    ///< the thread is at it, or done
+    /// An opening has been requested and its result has not been fetched yet.
+    bool opening = false;
+    bool begun = false;  ///< the thread has started the opening, or finished it
     bool quit = false;
     std::optional<OpenedStream> opened;
     std::vector<std::unique_ptr<ImageStream>> to_close;
@@ -43,7 +44,7 @@ class BackgroundOpener {
 
   StreamOpener open_;
   std::shared_ptr<Desk> desk_ = std::make_shared<Desk>();
-  std::jthread thread_;  // last: it uses the rest
+  std::jthread thread_;  // declared last because it uses the other members
 };
 
 }  // namespace azimuth

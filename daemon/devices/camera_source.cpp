@@ -37,7 +37,7 @@ void CameraSource::pass_on(SourceWires& wires) {
       frame_.stamp += to_stamp_;
       wires.frames->publish(frame_);
     }
-    frame_ = Frame{};  // an unwanted one, or the one that was replaced
+    frame_ = Frame{};  // releases an unwanted frame, or the frame that publish() replaced
   }
 }
 

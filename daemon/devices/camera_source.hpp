@@ -6,15 +6,15 @@
 
 namespace azimuth {
 
-/// Images of a camera that belongs to the daemon, of whatever kind.
+/// Images of a camera that the daemon opens itself.
 class CameraSource final : public PolledSource {
  public:
-  /// Stamps are CLOCK_MONOTONIC plus `to_stamp`: what is missing for the epoch, less what the device's stamps are late.
-  /// A USB camera that is there but silent has its port reset, where `usb` can do that.
+  /// The stamps are CLOCK_MONOTONIC plus `to_stamp`: the offset to the epoch minus the delay of the device's stamps.
+  /// When a USB camera is present but silent, its port is reset, provided that `usb` can do this.
   CameraSource(const CameraDriverSettings& settings, StreamOpener open, Duration to_stamp, UsbHelp usb = {});
 
   const char* name() const override { return "camera"; }
-  void restore(const OdometerMemory& /*memory*/) override {}  // no odometry
+  void restore(const OdometerMemory& /*memory*/) override {}  // a camera has no odometry
 
  private:
   void work(Clock::time_point now, SourceWires& wires) override;

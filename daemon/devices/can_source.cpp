@@ -24,7 +24,7 @@ void CanSource::work(Clock::time_point now, SourceWires& wires) {
   while (driver_.take(reading_)) wires.odometry.push(reading_);
 }
 
-/// Losses and errors are told when there are any.
+/// Losses and bus errors are mentioned only if there are any.
 void CanSource::describe(DeviceStatus& status) const {
   const CanState& state = driver_.state();
   put_state(state, status.text);

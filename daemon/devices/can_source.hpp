@@ -4,10 +4,10 @@
 
 namespace azimuth {
 
-/// The odometry of a base on a CAN bus.
+/// The odometry of a robot base on a CAN bus.
 class CanSource final : public PolledSource {
  public:
-  /// Stamps are CLOCK_MONOTONIC plus `epoch_minus_monotonic`. `open_link` may lead elsewhere than to the kernel.
+  /// The stamps are CLOCK_MONOTONIC plus `epoch_minus_monotonic`. Tests pass another `open_link`.
   CanSource(const CanSettings& settings, const CanLayout& layout, Duration epoch_minus_monotonic,
             CanLinkOpener open_link = CanSocket::open);
 

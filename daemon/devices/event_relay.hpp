@@ -7,12 +7,12 @@
 
 namespace azimuth {
 
-/// Passes on to the log what there is to say of a device. What finds no room on the wire is lost.
+/// Passes the news of a device on to the log. News that finds no room on the wire is lost.
 ///
-/// Thread contract: thread-bound. Nothing allocates once storage has grown.
+/// Thread contract: thread-bound. Nothing allocates once the storage has grown.
 class EventRelay {
  public:
-  /// Everything that the driver has to tell, each after `prefix`. `trouble`: the device does not work now.
+  /// Passes on all news of the driver, each with `prefix` before it. `trouble`: the device does not work now.
   template <class Driver>
   void pass_on(Driver& driver, bool trouble, std::string_view prefix, SourceWires& wires) {
     while (driver.take_event(text_)) {
@@ -22,7 +22,7 @@ class EventRelay {
       wires.events.push(event_);
     }
   }
-  /// Likewise of its USB port.
+  /// Passes on all news of the device's USB port, each with `prefix` before it.
   void pass_on(UsbHelp& usb, std::string_view prefix, SourceWires& wires) {
     while (usb.take_event(event_)) {
       event_.text.insert(0, prefix);

@@ -4,10 +4,10 @@
 
 namespace azimuth {
 
-/// Odometry that another program writes into a FIFO.
+/// The odometry that another program writes into a FIFO.
 class FifoSource final : public PolledSource {
  public:
-  /// As FifoOdometer.
+  /// Parameters as for FifoOdometer.
   FifoSource(const FifoSettings& settings, Duration epoch_minus_monotonic);
 
   const char* name() const override { return "odometer"; }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr DeviceCondition kMisdated{Connection::silent, "misdated"};
 
-/// Stamps that are decades off are no matter of clocks that were set badly.
+/// A difference of decades is not caused by a badly set clock, so another cause is suggested.
 void append_clocks(double off_s, const std::string& channel, std::string& words) {
   constexpr double kDecade_s = 3e8;
   auto out = std::back_inserter(words);
@@ -104,7 +104,7 @@ LcmCameraSource::LcmCameraSource(const LcmSourceSettings& settings, const LcmAdd
 bool LcmCameraSource::pass_on(SourceWires& wires) {
   if (!frames_.take(frame_)) return false;
   if (wires.frames) wires.frames->publish(frame_);
-  frame_ = Frame{};  // an unwanted one, or the one that was replaced
+  frame_ = Frame{};  // releases an unwanted frame, or the frame that publish() replaced
   return true;
 }
 

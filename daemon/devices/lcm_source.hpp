@@ -10,7 +10,7 @@
 
 namespace azimuth {
 
-/// What LcmOdometerSource and LcmCameraSource have in common: a receiver each, and how it is reported.
+/// The common base of LcmOdometerSource and LcmCameraSource: it has a receiver and reports its state.
 class LcmSource : public PolledSource {
  protected:
   struct Setup {
@@ -30,11 +30,11 @@ class LcmSource : public PolledSource {
   bool status_is_news() const final { return true; }
 
   virtual LcmSink& sink() = 0;
-  /// False: there was nothing.
+  /// Sends the received samples on. False: there were none.
   virtual bool pass_on(SourceWires& wires) = 0;
   virtual std::uint64_t senders() const = 0;
   virtual const LcmStampCounts& stamp_counts() const = 0;
-  /// Appends what was lost and why but for its stamps, e.g. ", 3 malformed".
+  /// Appends losses and their causes, e.g. ", 3 malformed". Losses caused by stamps are not included.
   virtual void describe_losses(std::string& words) const = 0;
 
   DeviceCondition judge(Clock::time_point now) const;
@@ -43,14 +43,14 @@ class LcmSource : public PolledSource {
   LcmReceiver receiver_;
   bool any_sample_ = false;
   Clock::time_point last_sample_{}, last_misdated_{};
-  std::uint64_t misdated_ = 0;  // samples so far
+  std::uint64_t misdated_ = 0;  // samples with a wrong stamp so far
   DeviceCondition condition_;
 };
 
 /// Wheel odometry that another process sends over LCM (drivers/lcm/lcm_odometry.hpp).
 class LcmOdometerSource final : public LcmSource {
  public:
-  /// Samples are dated CLOCK_MONOTONIC plus `epoch_minus_monotonic`; `address` is that of the settings' URL.
+  /// Stamps on arrival are CLOCK_MONOTONIC plus `epoch_minus_monotonic`. `address` is the parsed URL of `settings`.
   LcmOdometerSource(const LcmSourceSettings& settings, const LcmAddress& address, Duration epoch_minus_monotonic);
 
   const char* name() const override { return "odometer"; }
@@ -71,11 +71,11 @@ class LcmOdometerSource final : public LcmSource {
 /// Images that another process sends over LCM (drivers/lcm/lcm_frames.hpp).
 class LcmCameraSource final : public LcmSource {
  public:
-  /// As LcmOdometerSource.
+  /// Parameters as for LcmOdometerSource.
   LcmCameraSource(const LcmSourceSettings& settings, const LcmAddress& address, Duration epoch_minus_monotonic);
 
   const char* name() const override { return "camera"; }
-  void restore(const OdometerMemory& /*memory*/) override {}  // no odometry
+  void restore(const OdometerMemory& /*memory*/) override {}  // a camera has no odometry
 
  private:
   LcmSink& sink() override { return frames_; }

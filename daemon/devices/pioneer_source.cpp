@@ -12,7 +12,7 @@ namespace {
 
 using namespace std::chrono_literals;
 constexpr auto kTimeToClose = 400ms;
-/// How long an adapter is let alone for its reset, if nobody says that it has ended.
+/// How long the driver leaves the adapter alone during a reset, if the end of the reset is not reported.
 constexpr auto kTimeToReset = 20s;
 
 std::uint32_t flags(const PioneerState& state) {
@@ -47,11 +47,11 @@ void PioneerSource::help(Clock::time_point now) {
   if (driver_.state().connection == Connection::running) help_.usb.works();
   if (help_.usb.take_end()) driver_.wake(now);
   if (driver_.silent_for(now) < help_.reset_after || !help_.usb.may_reset(now)) return;
-  if (port_.empty()) find_port();  // it could not even be opened
+  if (port_.empty()) find_port();  // the device could not be opened yet
   if (help_.usb.reset(port_, now)) driver_.release(now, kTimeToReset);
 }
 
-/// Asked while it is plugged in: afterwards sysfs does not know any more.
+/// To be called while the adapter is plugged in, because sysfs does not list an unplugged adapter.
 void PioneerSource::find_port() {
   const std::optional<UsbPort> port = help_.find_port(device_);
   port_ = port ? port->text() : std::string();

@@ -9,11 +9,11 @@
 
 namespace azimuth {
 
-/// What may be done about a serial adapter by way of USB.
+/// How a serial adapter can be reset through USB.
 struct AdapterHelp {
   UsbHelp usb;
-  std::chrono::duration<double> reset_after = std::chrono::seconds(10);  ///< of silence
-  /// Where the adapter at a node is plugged in; another function in tests only.
+  std::chrono::duration<double> reset_after = std::chrono::seconds(10);  ///< silence after which the port is reset
+  /// Finds the USB port of the adapter at a device node. Tests pass another function.
   std::function<std::optional<UsbPort>(const std::string& node)> find_port = [](const std::string& node) {
     return usb_port_of_node(node);
   };
@@ -21,11 +21,12 @@ struct AdapterHelp {
 
 /// The wheel odometry of a Pioneer on its serial line.
 ///
-/// A USB adapter that is there but from which not a byte comes is let go of and its port reset: it hangs, or the robot
-/// is switched off, which looks the same and does no harm (see UsbHelp for how often).
+/// When a USB adapter is present but sends not a single byte, it is closed and its port is reset. Either the adapter
+/// hangs, or the robot is switched off; these look the same, and the reset does no harm in the second case (UsbHelp
+/// limits how often).
 class PioneerSource final : public PolledSource {
  public:
-  /// Stamps are CLOCK_MONOTONIC plus `epoch_minus_monotonic`.
+  /// The stamps are CLOCK_MONOTONIC plus `epoch_minus_monotonic`.
   PioneerSource(const PioneerSettings& settings, Duration epoch_minus_monotonic, AdapterHelp help = {});
 
   const char* name() const override { return "odometer"; }
@@ -47,8 +48,9 @@ class PioneerSource final : public PolledSource {
   std::string device_;
   PioneerDriver driver_;
   AdapterHelp help_;
-  std::string port_;     // of the adapter when it was last opened; empty: none is known
-  int descriptor_ = -1;  // of the last turn
+  // USB port of the adapter when it was last opened; empty: unknown.
+  std::string port_;
+  int descriptor_ = -1;  // descriptor of the last turn
   OdometryReading reading_;
 };
 

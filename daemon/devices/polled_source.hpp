@@ -12,19 +12,20 @@
 
 namespace azimuth {
 
-/// How a device is, as far as a change is told at once.
+/// The state of a device. A change of it is reported at once.
 struct DeviceCondition {
   Connection connection = Connection::away;
-  std::string_view why = {};  ///< static text; tells apart what has one word for its connection
+  /// Static text. It distinguishes conditions that have the same connection.
+  std::string_view why = {};
   friend bool operator==(const DeviceCondition&, const DeviceCondition&) = default;
 };
 inline constexpr DeviceCondition kAway{Connection::away}, kSilent{Connection::silent}, kRunning{Connection::running};
 
-/// What all live sources have in common: a driver that names its descriptors, has turns that never block, and knows how
-/// its device is. Each turn lets it work, passes on its news, tells its status (at a change, and once a second for what
-/// is counted in it), and sleeps until something comes, kNap at most.
+/// The common base of all live sources. Each has a driver that names its descriptors, never blocks in a turn, and knows
+/// the state of its device. Each turn lets the driver work, passes on its news, publishes its status (when the
+/// condition changes, and once a second for the counters), and sleeps until data arrive, kNap at most.
 ///
-/// Thread contract: as a Source. Of its own nothing allocates once storage has grown.
+/// Thread contract: as for Source. This class allocates nothing once the storage has grown.
 class PolledSource : public Source {
  public:
   using Clock = DeviceClock;
@@ -32,26 +33,26 @@ class PolledSource : public Source {
   bool turn(Doorbell& bell, SourceWires& wires) final;
 
  protected:
-  /// What poll(2) is to wait for; a descriptor of -1 for nothing.
+  /// Descriptors and events that poll(2) waits for; an unused entry has the descriptor -1.
   using Polled = std::array<pollfd, 2>;
   static Polled only(int descriptor, short events) {
     return {pollfd{.fd = descriptor, .events = events, .revents = 0}, pollfd{.fd = -1, .events = 0, .revents = 0}};
   }
 
  private:
-  /// Lets the driver work, and hands over what came.
+  /// Lets the driver work, and sends the samples that arrived.
   virtual void work(Clock::time_point now, SourceWires& wires) = 0;
-  /// Nothing: not known yet, and nothing is told.
+  /// None: the condition is not known yet, and nothing is reported.
   virtual std::optional<DeviceCondition> condition() const = 0;
-  /// All of `status` but `works`, into storage that is used again.
+  /// Fills in all of `status` except `works`. The storage of `status` is reused.
   virtual void describe(DeviceStatus& status) const = 0;
   virtual Polled polled() const = 0;
-  /// Until the driver wants a turn without any event.
+  /// Time until the driver needs a turn without any event.
   virtual Clock::duration due_in(Clock::time_point now) const = 0;
 
-  /// Passes on the driver's own news; `trouble`: the device does not work now.
+  /// Passes on the driver's own news. `trouble`: the device does not work now.
   virtual void tell(EventRelay& /*relay*/, bool /*trouble*/, SourceWires& /*wires*/) {}
-  /// Whether the driver has no news of its own, so that each change is told by the status's words.
+  /// True: the driver has no news of its own, so each change is logged with the words of the status.
   virtual bool status_is_news() const { return false; }
 
   void report(SourceWires& wires);

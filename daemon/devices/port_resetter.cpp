@@ -9,7 +9,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kPatience = 10s;
-constexpr auto kDeadline = 60s;  // nobody asks: see the contract
+constexpr auto kDeadline = 60s;  // never checked, because this thread may block
 
 }  // namespace
 

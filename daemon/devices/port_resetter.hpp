@@ -12,25 +12,27 @@
 
 namespace azimuth {
 
-/// Resets USB ports on a thread of its own, so that no source ever waits for one.
+/// Resets USB ports on a thread of its own, so that no source waits for a reset.
 ///
-/// Thread contract: made and destroyed by one thread; each client belongs to one thread. Destruction waits for a reset
-/// that is under way: so would the end of the process, since the kernel does not let go of it.
+/// Thread contract: constructed and destroyed by one thread; each client number belongs to one thread. The destructor
+/// waits for a reset in progress. The end of the process would wait as well, because the kernel does not interrupt a
+/// reset.
 class PortResetter {
  public:
-  static constexpr std::size_t kClients = 2;  ///< sources that can wish for resets
+  static constexpr std::size_t kClients = 2;  ///< number of sources that can request resets
   using Reset = std::function<PortResetResult(const UsbPort& port, PortReset::Clock::time_point now)>;
 
-  /// `reset` is another one in tests only. Throws std::system_error when the system refuses a thread.
+  /// Tests pass another `reset`. Throws std::system_error when the system refuses a thread.
   PortResetter();
   explicit PortResetter(Reset reset);
   ~PortResetter();
   PortResetter(const PortResetter&) = delete;
   PortResetter& operator=(const PortResetter&) = delete;
 
-  /// Returns at once. A wish that has not been looked at yet is replaced.
+  /// Requests a reset and returns at once. The new request replaces an earlier one that has not been processed
+  /// yet.
   void request(std::size_t client, const UsbPort& port);
-  /// What became of the client's last wish, once. False: nothing new.
+  /// Takes the result of the client's last request, once. False: there is no new one.
   bool take(std::size_t client, PortResetResult& into);
 
  private:
@@ -41,11 +43,11 @@ class PortResetter {
   };
   void turn();
 
-  Doorbell bell_, nobodys_bell_;  // sources turn often enough to look
+  Doorbell bell_, nobodys_bell_;  // clients poll often enough for results and need no bell
   Reset reset_;
   std::array<Lane, kClients> lanes_;
   std::atomic<bool> ends_{false};
-  StageThread thread_;  // last, so that it ends before what it touches
+  StageThread thread_;  // declared last, so that it ends before the members it uses are destroyed
 };
 
 }  // namespace azimuth

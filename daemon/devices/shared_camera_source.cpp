@@ -30,7 +30,7 @@ void SharedCameraSource::work(Clock::time_point now, SourceWires& wires) {
   condition_ = judge(wires.frames != nullptr, now);
 }
 
-/// False: there was nothing that is wanted.
+/// False: no wanted sample was received.
 bool SharedCameraSource::pass_on(SourceWires& wires) {
   bool any = false;
   while (camera_.take(set_)) {
@@ -45,14 +45,15 @@ bool SharedCameraSource::pass_on(SourceWires& wires) {
       frame_.stamp += epoch_minus_monotonic_;
       wires.frames->publish(frame_);
     }
-    frame_ = Frame{};  // an unwanted one, or the one that was replaced
+    frame_ = Frame{};  // releases an unwanted frame, or the frame that publish() replaced
   }
   return any;
 }
 
 std::optional<DeviceCondition> SharedCameraSource::judge(bool wants_frames, Clock::time_point now) const {
   const SharedCameraState& state = camera_.state();
-  // A server that is free greets at once, though not always in the turn that connects: until then nothing has changed.
+  // A free server sends its greeting at once, but possibly in a later turn than the connection. Until then the
+  // condition stays as it was.
   if (state.waiting_since && now - *state.waiting_since <= silent_after_) return condition_;
   if (!state.connected) return kAway;
   if (wants_frames && state.format.width_px == 0) return kWithoutImages;

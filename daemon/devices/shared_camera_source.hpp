@@ -7,15 +7,16 @@
 
 namespace azimuth {
 
-/// Images or bearings, whichever are wanted, from a camera in another process (drivers/camera/shared_camera.hpp).
+/// Images or bearings, depending on which are wanted, from a camera in another process
+/// (drivers/camera/shared_camera.hpp).
 class SharedCameraSource final : public PolledSource {
  public:
-  /// Stamps are CLOCK_MONOTONIC plus `epoch_minus_monotonic`. A camera that is connected and says nothing for
-  /// `silent_after` is in trouble.
+  /// The stamps are CLOCK_MONOTONIC plus `epoch_minus_monotonic`. A connected camera that sends nothing for
+  /// `silent_after` is reported as silent.
   SharedCameraSource(std::filesystem::path socket, Duration epoch_minus_monotonic, Clock::duration silent_after);
 
   const char* name() const override { return "camera"; }
-  void restore(const OdometerMemory& /*memory*/) override {}  // no odometry
+  void restore(const OdometerMemory& /*memory*/) override {}  // a camera has no odometry
 
  private:
   void work(Clock::time_point now, SourceWires& wires) override;
@@ -34,7 +35,7 @@ class SharedCameraSource final : public PolledSource {
   BearingSet set_;
   Frame frame_;
   Clock::duration silent_after_;
-  Clock::time_point last_sample_{};  // or the start of the connection
+  Clock::time_point last_sample_{};  // time of the last sample, or of the connection if no sample came since
   bool was_connected_ = false;
   std::optional<DeviceCondition> condition_;
 };

@@ -13,43 +13,44 @@
 
 namespace azimuth {
 
-/// What USB does for one source: wakes it when something is plugged in, and resets the port of its device when nothing
-/// else helps. Without either (the default) it does nothing.
+/// USB support for one source. It wakes the source when a device is plugged in, and resets the port of the source's
+/// device when nothing else helps. A default-constructed object does neither.
 ///
-/// A device may be silent although it is sound (a robot that is switched off). Each reset in vain therefore doubles the
-/// time to the next, from a minute up to `longest_interval`, until the device works again.
+/// A sound device may be silent, for example when the robot is switched off. So each unsuccessful reset doubles the
+/// time to the next one, from a minute up to `longest_interval`, until the device works again.
 ///
-/// Thread contract: thread-bound, but made by the main thread: libusb's own thread must not take over a source's
-/// real-time priority. Nothing blocks; nothing allocates while nothing happens.
+/// Thread contract: thread-bound, but constructed by the main thread, because libusb's own thread must not inherit a
+/// source's real-time priority. Nothing blocks; nothing allocates while there are no events.
 class UsbHelp {
  public:
   using Clock = std::chrono::steady_clock;
 
   UsbHelp() = default;
-  /// Null: that part is not wanted. `client` is the source's own number among the resetter's clients.
+  /// A null pointer disables that part. `client` is the source's number among the clients of the resetter.
   UsbHelp(std::unique_ptr<UsbMonitor> monitor, std::shared_ptr<PortResetter> resetter, std::size_t client,
           Clock::duration longest_interval);
 
-  /// For poll(2), with the source's own descriptors; may change with every turn.
+  /// The entry for poll(2), beside the source's own descriptors. The entry may change with every turn.
   pollfd polled() const { return {.fd = monitor_ ? monitor_->descriptor() : -1, .events = POLLIN, .revents = 0}; }
 
-  /// Whether something was plugged in since the last call.
+  /// True: a device was plugged in since the last call.
   bool turn();
 
-  /// The device works: the next reset is a first one again.
+  /// Reports that the device works, so that the interval between resets starts again at its minimum.
   void works() { interval_ = PortReset::kLeastInterval; }
-  /// Has a port reset (as sysfs names it; empty: not by USB), unless it is too soon for that. True: it is under way.
+  /// Requests a reset of a port (its name in sysfs; empty: the device is not on USB), unless it is too soon. True: the
+  /// reset is in progress.
   bool reset(const std::string& port, Clock::time_point now);
-  /// Whether reset() would not be too soon.
+  /// True: a reset would not be too soon.
   bool may_reset(Clock::time_point now) const {
     return resetter_ && !resetting_ && !(not_before_ && now < *not_before_);
   }
-  /// Whether the reset has ended, well or not. Once for each.
+  /// True, once for each reset: the reset has ended, with or without success.
   bool take_end();
 
-  /// What there is to say in the log, oldest first.
+  /// Takes the next event for the log, oldest first.
   bool take_event(DeviceEvent& event);
-  std::uint64_t resets() const { return resets_; }  ///< that were done
+  std::uint64_t resets() const { return resets_; }  ///< number of resets done
 
  private:
   std::unique_ptr<UsbMonitor> monitor_;
@@ -59,7 +60,8 @@ class UsbHelp {
   std::optional<Clock::time_point> not_before_;
   bool resetting_ = false, told_monitor_ = false;
   PortResetResult result_;
-  std::string told_failure_;  // of the last reset; not told twice
+  // The failure of the last reset, so that the same failure is not logged twice.
+  std::string told_failure_;
   Ring<DeviceEvent, 4> events_;
   std::uint64_t resets_ = 0;
 };

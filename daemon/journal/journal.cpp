@@ -1,4 +1,4 @@
-// The journal, by its C interface: a sink of the logging library has no fields.
+// Uses the C interface of the journal, because a sink of the logging library cannot set fields.
 #define SD_JOURNAL_SUPPRESS_LOCATION
 #include "daemon/journal/journal.hpp"
 

@@ -5,8 +5,8 @@
 
 namespace azimuth {
 
-/// What happens to a daemon that somebody may want to find again, or be told about: each has an identifier in the
-/// journal, and an explanation in its catalogue (systemd/azimuth.catalog).
+/// The daemon's events that users may want to find again or be notified of. Each has an identifier in the journal, and
+/// an explanation in the journal's catalogue (packaging/systemd/azimuth.catalog).
 enum class JournalEvent {
   device_trouble,
   device_recovered,
@@ -22,22 +22,23 @@ enum class JournalEvent {
   sample_trouble
 };
 
-/// What an event is about; empty: nothing of that kind.
+/// The subject of an event. An empty field does not apply.
 struct JournalSubject {
   std::string_view device = {};  ///< "odometer", "camera"
-  std::string_view stage = {};   ///< a thread's name
+  std::string_view stage = {};   ///< name of the stage's thread
 };
 
-/// Logs `text` with the severity of `event`: to the journal with the fields MESSAGE_ID, AZIMUTH_EVENT, AZIMUTH_DEVICE
-/// and AZIMUTH_STAGE when log_to_journal() says so, else (or when the journal does not take it) as any other line.
+/// Logs `text` with the severity of `event`. After log_to_journal(true) the event goes to the journal, with the
+/// fields MESSAGE_ID, AZIMUTH_EVENT, AZIMUTH_DEVICE and AZIMUTH_STAGE. Otherwise, or when the journal does not accept
+/// the event, the text is logged like any other line.
 ///
-/// Thread-safe. Allocates: not for real-time threads.
+/// Thread-safe. Allocates, so it is not for real-time threads.
 void log_event(JournalEvent event, std::string_view text, const JournalSubject& subject = {});
 
-/// Events go to the journal with their fields from now on, or not any more.
+/// Selects whether events go to the journal with their fields.
 void log_to_journal(bool yes);
 
-/// The fields of an event, as sd_journal_sendv(3) takes them: "MESSAGE=...".
+/// The fields of an event in the form "MESSAGE=...", for sd_journal_sendv(3).
 std::vector<std::string> journal_fields(JournalEvent event, std::string_view text, const JournalSubject& subject);
 
 }  // namespace azimuth

@@ -13,10 +13,11 @@
 namespace azimuth {
 namespace {
 
-/// Between maps, when only a new one would tell a restart where the robot is; and when that could not be written.
+/// Pauses between maps. kSoon applies when only a new map would let a restart know the pose, kAgain after such a map
+/// could not be written.
 constexpr MapKeeper::Clock::duration kSoon = std::chrono::seconds(1), kAgain = std::chrono::seconds(3);
 
-/// Since the Unix epoch; 0: there is no such file.
+/// When the file was last modified [us since the Unix epoch]; 0: it does not exist.
 std::int64_t written_us(const std::string& file) {
   struct stat about {};
   if (file.empty() || ::stat(file.c_str(), &about) != 0) return 0;
@@ -46,12 +47,13 @@ bool MapKeeper::is_due(Clock::time_point now) {
   return true;
 }
 
-/// So much of the interval is over that little of it is left.
+/// A head start that leaves only kSoon of the save interval.
 MapKeeper::Clock::duration MapKeeper::due_soon() const {
   return std::max(clock_duration(settings_.save_interval_s) - kSoon, Clock::duration{});
 }
 
-/// By the clock of the disk, which may have been set meanwhile; of none, or one of the future: as if it were new.
+/// Uses the disk's clock, which may have been set meanwhile. Without a map, or with one from the future, the age is
+/// zero.
 MapKeeper::Clock::duration MapKeeper::age_of_saved() const {
   if (status_.written_us == 0) return {};
   const auto since_epoch = std::chrono::system_clock::now().time_since_epoch();
@@ -81,7 +83,8 @@ bool MapKeeper::save(const MapSnapshot& map) {
   return problem.empty();
 }
 
-/// The map may be where nobody can write, and is none the worse for it: only a restart will have to search.
+/// The file may lie where the daemon cannot write. This does not harm the map; only a restart then needs a
+/// relocalisation.
 bool MapKeeper::save_place(const MapSnapshot& map) {
   if (!odometry_) return false;
   const std::string problem = write(map, located_map(settings_.file).string());
@@ -91,7 +94,7 @@ bool MapKeeper::save_place(const MapSnapshot& map) {
   return problem.empty();
 }
 
-/// What stood in the way; empty: nothing.
+/// Returns why the map was not written; empty: it was written.
 std::string MapKeeper::write(const MapSnapshot& map, const std::string& file) {
   if (encoded_size(map) > kMaxMapBytes) return file + ": the map has grown too large to be saved";
   if (const auto problem = implausible(map)) return file + ": the map " + *problem;

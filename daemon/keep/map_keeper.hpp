@@ -11,42 +11,44 @@
 
 namespace azimuth {
 
-/// How the saved map is.
+/// The state of the saved map.
 struct MapKeeperStatus {
-  std::string text;             ///< what became of the last one, for a person
-  bool trouble = false;         ///< it could not be loaded or saved
-  bool unfit = false;           ///< the one on the disk cannot be started from: it is set aside before one is saved
-  std::int64_t written_us = 0;  ///< when the one on the disk was, since the Unix epoch; 0: there is none
-  std::uint64_t saved = 0;      ///< since the start
-  std::uint64_t failed = 0;     ///< likewise
+  std::string text;      ///< what happened to the last map, for a person
+  bool trouble = false;  ///< the map could not be loaded or saved
+  /// The map on the disk cannot be started from. It is renamed before another map is saved.
+  bool unfit = false;
+  std::int64_t written_us = 0;  ///< when the map on the disk was written [us since the Unix epoch]; 0: there is none
+  std::uint64_t saved = 0;      ///< maps saved since the start
+  std::uint64_t failed = 0;     ///< failed attempts since the start
 };
 
-/// Saves maps, and knows when the next one is due. What is implausible is not written over a good map; trouble with the
-/// disk is logged once, and the next interval tries again.
+/// Saves maps and decides when the next save is due. An implausible map does not overwrite a good one. Trouble with the
+/// disk is logged once, and the save is tried again after the next interval.
 ///
 /// Thread contract: thread-bound; not for real-time threads (a slow disk blocks the caller). save() allocates.
 class MapKeeper {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `start` says what became of the map that was to be loaded. Unless it `saves`, the file stays as it is, and where
-  /// the robot is on it goes to its located_map(). `odometry` is kept beside it; none, as for what is played, which is
-  /// not where it was when it is played again: then nothing goes there either.
+  /// `start` tells what happened to the map that was to be loaded. Without `saves` the map file is not changed, and the
+  /// pose of the robot on the map goes into the file located_map(). `odometry` is kept beside the map. A played
+  /// recording has none, because its robot is not at the same place when it is played again; without `odometry` the
+  /// file located_map() is not written either.
   MapKeeper(MapSettings settings, MapKeeperStatus start, bool saves, std::optional<OdometryKeeper> odometry = {});
 
-  /// An interval has passed since the last save, which may be that of a start before: one that is killed again and
-  /// again would never save, and the way since its map would become too long to be believed. Where there is no map, an
-  /// interval since the first call; a short one when how the robot went since the last map is not known, and when there
-  /// was nothing to save.
+  /// True: an interval has passed since the last save. The save of an earlier process counts as well. Otherwise a
+  /// daemon that is killed again and again would never save, and the motion since its map would become too long to be
+  /// used. Without a map the interval starts at the first call. The interval is short when the motion since the last
+  /// map is unknown, and after a map that was empty.
   bool is_due(Clock::time_point now);
 
-  /// Puts it on the disk; false: it is not there, or is not to be. Without landmarks it is nothing to keep, and the
-  /// next one is due soon. The way since then, which the odometry's keeper is to have been told, goes there with it:
-  /// see drivers/storage/kept_odometry.hpp.
+  /// Writes the map to the disk. False: the map was not written, or is not to be saved. A map without landmarks is not
+  /// saved, and the next save is due soon. The motion since the map, which OdometryKeeper must have received before, is
+  /// written with it: see drivers/storage/kept_odometry.hpp.
   bool save(const MapSnapshot& map);
 
   const MapKeeperStatus& status() const { return status_; }
-  /// Null: there is none.
+  /// The keeper of the odometry beside the map. Null: there is none.
   OdometryKeeper* odometry() { return odometry_ ? &*odometry_ : nullptr; }
 
  private:
@@ -60,8 +62,9 @@ class MapKeeper {
   bool saves_;
   bool place_trouble_ = false;
   std::optional<OdometryKeeper> odometry_;
-  std::optional<Clock::time_point> asked_;  // the last time, or first whether it is due
-  Clock::duration head_start_{};            // of the interval, over by then
+  std::optional<Clock::time_point>
+      asked_;                     // start of the save interval: first call of is_due(), or last one that was due
+  Clock::duration head_start_{};  // part of the interval that counts as passed at asked_
   std::vector<std::byte> bytes_;
 };
 

@@ -56,15 +56,15 @@ void OdometryKeeper::write() {
   if (map_ && put(*map_)) newest_ = other();
 }
 
-/// Null: it is not known.
+/// Null: the motion is unknown.
 const OdometrySince* OdometryKeeper::way_since(Stamp map) const {
   for (const auto* way : {&ways_.since_made_map, &ways_.since_map})
     if (*way && (*way)->map == map) return &**way;
   return nullptr;
 }
 
-/// In place of the older record, in one call, so that a process that is killed leaves all of it or none. False: it was
-/// not, and the newest record is as it was.
+/// Overwrites the older record in a single call, so that a killed process leaves a whole record or none. False: the
+/// record was not written, and the newest record is unchanged.
 bool OdometryKeeper::put(const MapName& map) {
   const OdometrySince* const way = way_since(map.stamp);
   if (!way || !knows_odometer_ || way->reading.origin != kept_.odometer.origin) return false;
@@ -79,7 +79,7 @@ bool OdometryKeeper::put(const MapName& map) {
   return true;
 }
 
-/// In place, for a full disk has no room for a file that becomes longer again.
+/// Overwrites in place, because a full disk has no room for a file that is truncated and grows again.
 void OdometryKeeper::forget() {
   if (!records_[0] && !records_[1]) return;
   if (!fd_) fd_ = UniqueFd(::open(file_.c_str(), O_WRONLY | O_CLOEXEC));

@@ -14,33 +14,34 @@ namespace azimuth {
 /// The clock of this process's stamps.
 StampClock stamp_clock(Duration epoch_minus_monotonic);
 
-/// Keeps what the next start needs to know where the robot is (drivers/storage/kept_odometry.hpp), beside the map that
-/// it belongs to. Two know one half each: the odometer how it counts, the estimator how the robot went since the map
-/// was saved. What cannot be written is tried again with the next news, and missed by nobody but a start that then
-/// searches.
+/// Keeps the odometry from which the next start computes the pose of the robot (drivers/storage/kept_odometry.hpp),
+/// beside the map. The odometer knows how it counts, and the estimator knows the motion of the robot since the map was
+/// saved. A failed write is tried again with the next news; without the record, the next start needs a
+/// relocalisation.
 ///
-/// What a start before left stays until there is something newer: it is as true as it was while the odometer counts on.
+/// The record of an earlier start is kept until there is a newer one. It is valid as long as the odometer continues to
+/// count.
 ///
 /// Thread contract: thread-bound; not for real-time threads.
 class OdometryKeeper {
  public:
   OdometryKeeper(const std::filesystem::path& map, StampClock clock);
 
-  /// The map on the disk: what is kept for it is not overwritten before there is more.
+  /// Names the map on the disk. The record kept for this map is not overwritten before there is a newer one.
   void map_is(Stamp stamp, std::uint32_t checksum);
-  /// This map is going to take its place, or fails to, as on a full disk: what is known of the way since it is kept
-  /// beside what is kept for the one before, which goes on.
+  /// Announces a map that will replace the one on the disk, unless writing it fails, for example on a full disk. The
+  /// motion since the new map is kept beside the record of the old map, which is updated further.
   void map_comes(Stamp stamp, std::uint32_t checksum);
-  /// Of another origin than what is kept: that is of no use any more.
+  /// Takes the odometer's state. A record of another origin is then useless.
   void odometer_is(const OdometerMemory& memory);
-  /// Since both maps. Of neither: nobody knows how the robot went.
+  /// Takes the motion since the saved map and since the newest map. If both are empty, the motion is unknown.
   void robot_went(const OdometryWays& ways);
-  /// Since the map on the disk.
+  /// True: the motion since the map on the disk is known.
   bool knows_way() const { return map_ ? way_since(map_->stamp) != nullptr : ways_.since_map.has_value(); }
 
-  /// Puts the newest of both on the disk, if they belong together, and to the map.
+  /// Writes the newest state of odometer and motion to the disk, if both belong to the same origin and to the map.
   void write();
-  /// Nobody can go on with this.
+  /// Removes the records, because no start can continue from them.
   void forget();
 
  private:
@@ -48,10 +49,10 @@ class OdometryKeeper {
     Stamp stamp;
     std::uint32_t checksum;
   };
-  /// What a record says.
+  /// The contents of a record in the file.
   struct Record {
     std::uint32_t map_checksum;
-    std::uint32_t origin;  ///< of the odometry
+    std::uint32_t origin;  ///< origin of the odometry
   };
   const OdometrySince* way_since(Stamp map) const;
   std::size_t other() const { return 1 - newest_; }
@@ -60,11 +61,12 @@ class OdometryKeeper {
   std::filesystem::path file_;
   UniqueFd fd_;
   std::optional<MapName> map_;
-  std::array<std::optional<Record>, 2> records_;  // in the file
-  std::size_t newest_ = 0;                        // of them, for the map on the disk
+  std::array<std::optional<Record>, 2> records_;  // the records in the file
+  // Index in records_ of the newest record for the map on the disk.
+  std::size_t newest_ = 0;
   OdometryWays ways_;
   bool knows_odometer_ = false;
-  KeptOdometry kept_;  // as it is written next
+  KeptOdometry kept_;  // the record that is written next
   std::vector<std::byte> bytes_;
 };
 

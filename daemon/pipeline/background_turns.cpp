@@ -9,18 +9,18 @@
 namespace azimuth {
 namespace {
 
-/// How long an image waits for the estimator before it is painted without what was expected of it.
+/// How long an image waits for the estimator before it is painted without the expected bearings.
 constexpr std::chrono::milliseconds kPainterPatience{500};
 
-/// How often it is said that a log has grown.
+/// How often the growth of a log is reported.
 constexpr std::chrono::seconds kGrowthInterval{1};
 
-/// How long an image waits for its pose before it is recorded all the same: longer than a pose takes.
+/// How long an image waits for its pose before it is recorded anyway. It is longer than the computation of a pose.
 constexpr std::chrono::milliseconds kFrameRecorderPatience{50};
 
 }  // namespace
 
-/// What the estimator never comes to, for want of odometry, is painted as it was seen.
+/// An image that the estimator does not process, because odometry is missing, is painted without expected bearings.
 void PainterTurn::operator()() {
   bell_.wait(kNap);
   const auto now = std::chrono::steady_clock::now();
@@ -75,7 +75,7 @@ void RecorderTurn::operator()() {
   if (wires_.session) tell_session();
 }
 
-/// Of a session that could not be begun at once, the disk being in trouble.
+/// Tells the frame recorder of a session that could not be started at once because of trouble with the disk.
 void RecorderTurn::tell_session() {
   if (session_told_ || recorder_.session().empty()) return;
   session_told_ = true;
@@ -109,14 +109,14 @@ bool FrameRecorderTurn::has_waited() const {
 
 void KeeperTurn::operator()() {
   bell_.wait(kNap);
-  const bool has_map = wires_.maps.take(map_);  // first: the way since that map came before it
+  const bool has_map = wires_.maps.take(map_);  // first, because the motion since that map was published before the map
   if (OdometryKeeper* const odometry = keeper_.odometry()) {
     const bool remembers = wires_.memories.take(memory_), went = wires_.ways.take(ways_);
     if (remembers) odometry->odometer_is(memory_);
     if (went) odometry->robot_went(ways_);
     if (remembers || went) odometry->write();
   }
-  if (has_map && !keeper_.save(*map_)) map_->clear();  // which tells the estimator
+  if (has_map && !keeper_.save(*map_)) map_->clear();  // an empty map tells the estimator that it was not saved
   if (map_ && keeper_.is_due(MapKeeper::Clock::now())) wires_.map_storage.publish(map_);
   report();
 }

@@ -1,6 +1,6 @@
 #pragma once
-// What the pipeline does for people and for later, on threads that nobody waits for: painting, recording, keeping maps.
-// A disk that hangs must not end the daemon, so these are not watched.
+// Turns of the threads that serve people and the next start: painting, recording, and saving maps. No other thread
+// waits for them. The supervisor does not watch their deadlines, because a hanging disk must not end the daemon.
 
 #include <chrono>
 #include <memory>
@@ -23,7 +23,7 @@ namespace azimuth {
 
 class Source;
 
-/// Paints images beside what was expected of them. Thread contract: thread-bound.
+/// Paints each camera image beside the bearings that the estimator expected in it. Thread contract: thread-bound.
 class PainterTurn {
  public:
   struct Wires {
@@ -45,12 +45,13 @@ class PainterTurn {
   std::chrono::steady_clock::time_point waits_until_{};
 };
 
-/// Says how a log is. Thread contract: thread-bound.
+/// Reports the state of a log to the publisher. Thread contract: thread-bound.
 class LogReport {
  public:
   explicit LogReport(Newest<RecordStatus>& wire) : wire_(wire) {}
 
-  /// Only what changed, and once a second how large it is: the publisher need not wake up for the rest.
+  /// Publishes the status when its text or its count of lost events has changed, and at most once a second when only
+  /// the size of the log has grown. The publisher need not wake up more often.
   void tell(const RecorderStatus& status, Recorder::Clock::time_point now);
 
  private:
@@ -66,7 +67,8 @@ class RecorderTurn {
     TakenWire& taken;
     SentWire& sent;
     Newest<RecordStatus>& status;
-    Newest<std::string>* session;  ///< null: no images are recorded
+    /// Tells the frame recorder which session its images belong to; null: no images are recorded.
+    Newest<std::string>* session;
   };
 
   RecorderTurn(Recorder& recorder, Wires wires, Doorbell& bell);
@@ -85,8 +87,9 @@ class RecorderTurn {
   bool session_told_;
 };
 
-/// Records images, each once its pose is out: that has been in more of a hurry. One whose pose does not come, as there
-/// is no odometry or others have taken its place, waits a moment only, and less when more are behind it.
+/// Records images, each after the estimator has published the pose at its stamp, because the pose has priority. When no
+/// pose comes (there is no odometry, or a newer estimate replaced this one), an image waits 50 ms at most. An image
+/// does not wait at all when half the ring behind it is full.
 ///
 /// Thread contract: thread-bound.
 class FrameRecorderTurn {
@@ -117,8 +120,8 @@ class FrameRecorderTurn {
   LogReport report_;
 };
 
-/// Keeps the map, and how the robot went since. Thread contract: thread-bound; save_last() while all threads are at
-/// rest.
+/// Saves the map, and keeps the motion of the robot since that map. Thread contract: thread-bound; save_last() only
+/// while all threads are at rest.
 class KeeperTurn {
  public:
   struct Wires {
@@ -132,7 +135,7 @@ class KeeperTurn {
 
   void operator()();
 
-  /// What the estimator and the odometer know at the end. Once.
+  /// Saves the last map of the estimator and the last odometry of the odometer. Only the first call has an effect.
   void save_last(EstimatorStage& estimator, Source& odometer);
 
  private:
@@ -142,7 +145,8 @@ class KeeperTurn {
   MapKeeper& keeper_;
   Wires wires_;
   Doorbell& bell_;
-  // Here, at the estimator's, or on its way: so no map is made while one is being saved.
+  // The storage for a map is either here, with the estimator, or on a wire. So no map is made while another is being
+  // saved.
   std::unique_ptr<MapSnapshot> map_ = std::make_unique<MapSnapshot>();
   OdometerMemory memory_;
   OdometryWays ways_;

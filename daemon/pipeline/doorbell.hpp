@@ -13,11 +13,11 @@
 
 namespace azimuth {
 
-/// Wakes one sleeping thread. Every wire into a thread rings that thread's only doorbell, so it can wait for all of
-/// them at once without losing a ring: one that comes before wait() ends it at once.
+/// Wakes one sleeping thread. Each thread has one doorbell, and every wire that leads to the thread rings it, so the
+/// thread can wait for all its wires at once. No ring is lost: a ring before wait() makes wait() return at once.
 ///
-/// Thread contract: ring() may be called by any thread, does not block and is async-signal-safe; wait() is for the
-/// owner only.
+/// Thread contract: ring() may be called by any thread, does not block and is async-signal-safe; only the owning thread
+/// calls wait().
 class Doorbell {
  public:
   /// Throws std::system_error when the process is out of descriptors.
@@ -30,18 +30,18 @@ class Doorbell {
 
   void ring() noexcept {
     const std::uint64_t one = 1;
-    [[maybe_unused]] const auto written = ::write(fd_, &one, sizeof one);  // EAGAIN: it is ringing already
+    [[maybe_unused]] const auto written = ::write(fd_, &one, sizeof one);  // EAGAIN: it is already ringing
   }
 
-  /// Sleeps until rung or until `at_most` has passed; takes all rings so far.
+  /// Sleeps until the doorbell rings or `at_most` has passed. Clears all rings so far.
   void wait(std::chrono::nanoseconds at_most) noexcept { wait_also(-1, 0, at_most); }
 
-  /// Likewise, and ends too when `descriptor` (-1: none) is ready for `events`, as poll(2) has it.
+  /// Like wait(), but also returns when `descriptor` (-1: none) is ready for `events`, in the sense of poll(2).
   void wait_also(int descriptor, short events, std::chrono::nanoseconds at_most) noexcept {
     wait_also(std::array{pollfd{.fd = descriptor, .events = events, .revents = 0}}, at_most);
   }
 
-  /// Likewise with several descriptors.
+  /// Like wait(), but also returns when one of several descriptors is ready.
   template <std::size_t Count>
   void wait_also(const std::array<pollfd, Count>& others, std::chrono::nanoseconds at_most) noexcept {
     if (at_most.count() < 0) at_most = {};
@@ -52,13 +52,13 @@ class Doorbell {
     if (::ppoll(ready.data(), ready.size(), &limit, nullptr) > 0 && ready[0].revents != 0) silence();
   }
 
-  /// Takes all rings so far without sleeping.
+  /// Clears all rings so far without sleeping.
   void silence() noexcept {
     std::uint64_t rings = 0;
     [[maybe_unused]] const auto taken = ::read(fd_, &rings, sizeof rings);
   }
 
-  /// For an event loop: readable while it rings.
+  /// A descriptor for an event loop. It is readable while the doorbell rings.
   int descriptor() const noexcept { return fd_; }
 
  private:

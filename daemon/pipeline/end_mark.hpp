@@ -5,13 +5,13 @@
 
 namespace azimuth {
 
-/// Says once, from one thread to the next, that nothing more will come. What the one thread put into its wires before
-/// is there for the other, once it has seen the mark.
+/// Tells one thread that another thread will send no more data. Once the reader has seen the mark, everything that the
+/// writer put into its wires before set() is visible to the reader.
 ///
-/// Thread contract: any thread may set and ask.
+/// Thread contract: any thread may call set() and is_set().
 class EndMark {
  public:
-  /// `reader` is rung when it is set for the first time.
+  /// The first set() rings `reader`.
   explicit EndMark(Doorbell& reader) : reader_(reader) {}
 
   void set() noexcept {

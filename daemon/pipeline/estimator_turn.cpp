@@ -19,7 +19,7 @@ EstimatorTurn::EstimatorTurn(EstimatorStage stage, Wires wires, Doorbell& bell)
 
 void EstimatorTurn::operator()() {
   bell_.wait(kNap);
-  // Asked before draining: when it is true, every sample is in the wires by now.
+  // Read before draining: when it is true, all samples are already in the wires.
   const bool over = wires_.samples_over.is_set();
   drain_samples(over);
   if (over) stage_.finish();
@@ -34,7 +34,7 @@ void EstimatorTurn::operator()() {
   if (over) wires_.estimates_over.set();
 }
 
-/// Into storage that went round, and may hold what was expected of an older image.
+/// The storage of result_ is recycled and may hold the expected bearings of an older image, so their stamp is reset.
 bool EstimatorTurn::advance() {
   result_.expected.stamp.reset();
   if (!stage_.advance(result_.estimate)) return false;
@@ -44,9 +44,9 @@ bool EstimatorTurn::advance() {
   return true;
 }
 
-/// In the order of stamps, as a replay gives them and the log is to have them. While sources go on, a turn ends with
-/// the rings' worth of one kind. What was taken goes on to the publisher: it is what a replay needs for the same
-/// estimates.
+/// Takes samples in the order of their stamps, as a replay does and as the log must have them. While the sources still
+/// run, a turn takes at most one ring of samples of either kind. The samples taken are echoed to the publisher and
+/// recorded, because a replay needs exactly these for the same estimates.
 void EstimatorTurn::drain_samples(bool over) {
   std::size_t sets = 0, readings = 0;
   while (over || (sets < kBearingsRing && readings < kOdometryRing)) {
@@ -66,8 +66,8 @@ void EstimatorTurn::drain_samples(bool over) {
   }
 }
 
-/// A played source hands samples over in the order of their stamps. Whatever belongs before the one that was found
-/// first is in the other wire by then, so that is looked at once more: no reading is ever too late.
+/// A played source sends samples in the order of their stamps. When a reading is found first, any earlier bearing set
+/// is already in the other wire. So the bearings are polled once more after the odometry, and no reading is too late.
 void EstimatorTurn::look_for_samples() {
   if (!has_set_) has_set_ = wires_.bearings.pop(set_);
   if (!has_reading_) has_reading_ = wires_.odometry.pop(reading_);
@@ -96,7 +96,7 @@ void EstimatorTurn::pass_on(const BearingSet& set) {
   wires_.bearings_echo->push(echo_);
 }
 
-/// What is expected of an image is for people, so not of every image of a fast camera.
+/// Expected bearings serve people, so they are not published for every image of a fast camera.
 void EstimatorTurn::look_on(const BearingSet& set, const Estimator& estimator) {
   if (wires_.expected_images && set.stamp == wires_.shown.load(std::memory_order_relaxed)) {
     expected_.stamp = set.stamp;
@@ -110,13 +110,14 @@ void EstimatorTurn::look_on(const BearingSet& set, const Estimator& estimator) {
   estimator.expect(result_.expected.bearings);
 }
 
-/// Storage that arrives is the keeper's request, and empty unless the map before is on the disk. What is not worth
-/// keeping goes back empty.
+/// Storage that arrives on map_storage is the keeper's request. It still holds the previous map if that was saved to
+/// disk, and is empty otherwise. The storage is returned empty when there is no map worth saving.
 void EstimatorTurn::hand_over_map() {
   if (!map_->landmarks.empty()) stage_.map_is_kept();
   if (stage_.save_map(*map_)) {
     stage_.map_is_made();
-    next_way_ = Stamp::min();  // before the map, so that it is kept when that comes to the disk
+    // The motion is sent before the map, so that the keeper has the motion when the map is on the disk.
+    next_way_ = Stamp::min();
     if (wires_.ways) hand_over_way();
   } else {
     map_->clear();
@@ -124,15 +125,15 @@ void EstimatorTurn::hand_over_map() {
   wires_.maps.publish(map_);
 }
 
-/// Storage that arrives is the publisher's request. The last path goes without one.
+/// Storage that arrives on path_storage is the publisher's request. The last path is sent without a request.
 void EstimatorTurn::hand_over_path() {
   if (!path_) path_ = std::make_unique<std::vector<PathPose>>();
   if (!stage_.estimator().write_path(*path_)) path_->clear();
   wires_.paths.publish(path_);
 }
 
-/// By the stamps of what was taken: no clock is asked. Before there is any odometry, what the process before left is as
-/// true as it was.
+/// Paced by the stamps of the samples; no clock is read. Before the first odometry nothing is sent, because the motion
+/// kept by the previous process is still valid.
 void EstimatorTurn::hand_over_way() {
   if (!stage_.has_odometry() || reading_.stamp < next_way_) return;
   next_way_ = reading_.stamp + kHandOverInterval;
@@ -141,7 +142,7 @@ void EstimatorTurn::hand_over_way() {
   wires_.ways->publish(ways_);
 }
 
-/// Of a start that had odometry to go on with.
+/// Reports a start that had odometry of an earlier process to continue from.
 void EstimatorTurn::tell_of_start() {
   const std::optional<bool> goes_on = stage_.odometry_goes_on();
   if (!goes_on) return;
@@ -153,8 +154,8 @@ void EstimatorTurn::tell_of_start() {
   wires_.start_news.publish(news);
 }
 
-/// When it has changed, and with its last numbers at the end: before it is said that no estimate will come, so that the
-/// last status has them.
+/// Publishes the finding when the trouble has changed, and once more at the end. The last one is sent before the end
+/// mark of the estimates, so that the last status has its numbers.
 void EstimatorTurn::tell_of_samples(bool over) {
   const SampleTrouble trouble = stage_.samples().trouble();
   const bool is_news = trouble != std::exchange(told_trouble_, trouble);

@@ -18,7 +18,8 @@
 
 namespace azimuth {
 
-/// What the estimator's thread does: samples in, in the order of their stamps; estimates out, and what was taken.
+/// The turn of the estimator's thread: it takes samples in the order of their stamps, and publishes estimates and
+/// copies of the samples that the estimator took.
 ///
 /// Thread contract: thread-bound; stage() and digest() only while the thread is at rest.
 class EstimatorTurn {
@@ -31,7 +32,7 @@ class EstimatorTurn {
     Newest<SampleFinding>& findings;
     Newest<DeviceEvent>& start_news;
     EndMark &samples_over, &estimates_over;
-    // Null where nobody wants them.
+    // The pointers below are null where no thread reads the wire.
     OdometryWire* odometry_echo;
     BearingsWire* bearings_echo;
     TakenWire* taken;
@@ -50,7 +51,7 @@ class EstimatorTurn {
 
   EstimatorStage& stage() { return stage_; }
   const EstimatorStage& stage() const { return stage_; }
-  /// Of all steps.
+  /// The digest of the estimates of all steps.
   const EstimateDigest& digest() const { return digest_; }
 
  private:
@@ -66,7 +67,8 @@ class EstimatorTurn {
   void tell_of_start();
   void tell_of_samples(bool over);
 
-  /// As samples are: to whoever looks at more than poses.
+  /// True: the expected bearings are published beside each estimate. They are published when sample echoes are, because
+  /// both serve viewers that show more than poses.
   bool tells_expectations() const { return wires_.bearings_echo != nullptr; }
 
   EstimatorStage stage_;
@@ -74,10 +76,12 @@ class EstimatorTurn {
   Doorbell& bell_;
   OdometryReading reading_;
   BearingSet set_, echo_;
-  bool has_reading_ = false, has_set_ = false;  // in reading_ and set_
+  // Whether reading_ and set_ hold a sample that the stage has not taken yet.
+  bool has_reading_ = false, has_set_ = false;
   TakenSample taken_;
   ExpectedImage expected_;
-  std::vector<std::int64_t> in_map_;  // as in ExpectedImage; kept where pictures are wanted
+  // Identifiers of the landmarks in the map, for ExpectedImage::in_map; filled only when pictures are painted.
+  std::vector<std::int64_t> in_map_;
   StepResult result_;
   Estimate prediction_;
   EstimateDigest digest_;

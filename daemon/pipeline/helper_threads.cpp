@@ -5,13 +5,13 @@
 
 namespace azimuth {
 
-ErrandThread::ErrandThread() : thread_([this](const std::stop_token& stop) { run(stop); }) {
+TaskThread::TaskThread() : thread_([this](const std::stop_token& stop) { run(stop); }) {
   pthread_setname_np(thread_.native_handle(), "hindsight");
 }
 
-ErrandThread::~ErrandThread() { finish(); }
+TaskThread::~TaskThread() { finish(); }
 
-void ErrandThread::begin(std::function<void()> work) {
+void TaskThread::begin(std::function<void()> work) {
   {
     const std::scoped_lock lock(mutex_);
     work_ = std::move(work);
@@ -19,16 +19,16 @@ void ErrandThread::begin(std::function<void()> work) {
   changed_.notify_all();
 }
 
-void ErrandThread::finish() {
+void TaskThread::finish() {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return !work_; });
 }
 
-void ErrandThread::run(const std::stop_token& stop) {
+void TaskThread::run(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   while (changed_.wait(lock, stop, [this] { return static_cast<bool>(work_); })) {
     lock.unlock();
-    work_();  // nobody else touches it: nothing may be begun meanwhile
+    work_();  // needs no lock: no other work may begin meanwhile
     lock.lock();
     work_ = nullptr;
     changed_.notify_all();
@@ -66,7 +66,7 @@ void WorkerThreads::do_some() {
 }
 
 void WorkerThreads::run(const std::stop_token& stop) {
-  std::size_t done = 0;  // rounds
+  std::size_t done = 0;  // the last round in which this thread took part
   std::unique_lock lock(mutex_);
   while (changed_.wait(lock, stop, [&] { return round_ != done; })) {
     done = round_;

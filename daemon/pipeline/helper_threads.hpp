@@ -7,21 +7,22 @@
 #include <thread>
 #include <vector>
 
-#include "slam/hindsight/errand.hpp"
+#include "slam/hindsight/task_runner.hpp"
 #include "slam/hypotheses/workers.hpp"
 
 namespace azimuth {
 
-/// An errand's work on a thread of its own, under normal scheduling: what the estimator waits for at last is never in
-/// the way of what it must answer at once.
+/// Runs the work of a TaskRunner on a thread of its own, under normal scheduling. So a long computation does not delay
+/// the estimates that are due at once.
 ///
-/// Thread contract: thread-bound; the work runs on the thread it owns. What is under way is finished before it ends.
-class ErrandThread final : public Errand {
+/// Thread contract: thread-bound; only the work runs on the thread that this object owns. The destructor waits until
+/// the current work is finished.
+class TaskThread final : public TaskRunner {
  public:
-  ErrandThread();
-  ~ErrandThread() override;
-  ErrandThread(const ErrandThread&) = delete;
-  ErrandThread& operator=(const ErrandThread&) = delete;
+  TaskThread();
+  ~TaskThread() override;
+  TaskThread(const TaskThread&) = delete;
+  TaskThread& operator=(const TaskThread&) = delete;
 
   void begin(std::function<void()> work) override;
   void finish() override;
@@ -31,16 +32,16 @@ class ErrandThread final : public Errand {
 
   std::mutex mutex_;
   std::condition_variable_any changed_;
-  std::function<void()> work_;  // empty: none is under way
+  std::function<void()> work_;  // empty: no work in progress
   std::jthread thread_;
 };
 
-/// Work that may be done side by side, on the thread that asks and on others.
+/// Runs independent tasks in parallel, on the calling thread and on worker threads.
 ///
-/// Thread contract: as ErrandThread.
+/// Thread contract: as TaskThread.
 class WorkerThreads final : public Workers {
  public:
-  /// On so many in all, at least 1.
+  /// Uses `threads` threads in all, including the caller's; at least 1.
   explicit WorkerThreads(int threads);
   ~WorkerThreads() override;
   WorkerThreads(const WorkerThreads&) = delete;
@@ -54,7 +55,7 @@ class WorkerThreads final : public Workers {
 
   std::mutex mutex_;
   std::condition_variable_any changed_;
-  const std::function<void(std::size_t)>* task_ = nullptr;  // borrowed while one is under way
+  const std::function<void(std::size_t)>* task_ = nullptr;  // borrowed during for_each()
   std::size_t count_ = 0, round_ = 0, at_work_ = 0;
   std::atomic<std::size_t> next_{0};
   std::vector<std::jthread> threads_;

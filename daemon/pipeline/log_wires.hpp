@@ -1,5 +1,6 @@
 #pragma once
-// What goes to the recorders. They may be as slow as a disk: who writes into these wires waits for nobody.
+// The wires that lead to the recorders. A recorder may be as slow as its disk, so the writers never wait for room in
+// these wires.
 
 #include <atomic>
 #include <cstddef>
@@ -13,9 +14,9 @@
 
 namespace azimuth {
 
-/// A sample on its way to the recorder, in the order in which the estimator took them.
+/// A sample on its way to the recorder. Samples come in the order in which the estimator took them.
 struct TakenSample {
-  bool is_odometry = false;  ///< else bearings
+  bool is_odometry = false;  ///< False: the sample is a bearing set.
   OdometryReading odometry;
   BearingSet bearings;
 };
@@ -26,20 +27,22 @@ struct SentMessage {
   std::vector<std::byte> data;
 };
 
-inline constexpr std::size_t kTakenRing = 1024, kSentRing = 256;  ///< seconds of a slow disk
-inline constexpr std::size_t kImagesRing = 8;                     ///< megabytes each: half a second of it
+/// Capacities in samples and in messages. They bridge a few seconds of a slow disk.
+inline constexpr std::size_t kTakenRing = 1024, kSentRing = 256;
+/// Capacity in images of some megabytes each. It bridges half a second of a slow disk.
+inline constexpr std::size_t kImagesRing = 8;
 
 using TakenWire = EveryOne<TakenSample, kTakenRing>;
 using SentWire = EveryOne<SentMessage, kSentRing>;
 using ImagesWire = EveryOne<KeptImage, kImagesRing>;
 
-/// Up to which sample the poses are out. Who only records an image waits for that of the image, so as not to compete
-/// with it for processors, caches and memory.
+/// Tells up to which stamp the poses have been published. The frame recorder waits for the pose at the stamp of each
+/// image, so that it does not compete with the estimator for processors, caches and memory.
 ///
-/// Thread contract: any thread may tell and ask.
+/// Thread contract: any thread may call tell() and newest().
 class PosesOut {
  public:
-  /// `waiting` is rung for each.
+  /// Each tell() rings `waiting`.
   explicit PosesOut(Doorbell& waiting) : waiting_(waiting) {}
 
   void tell(Stamp newest) noexcept {

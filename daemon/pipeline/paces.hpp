@@ -1,22 +1,23 @@
 #pragma once
-// How often stages do what nothing else urges them to.
+// Intervals of the periodic work of the stages.
 
 #include <chrono>
 #include <optional>
 
 namespace azimuth {
 
-/// Longest sleep of a stage with nothing to do: it beats at least this often.
+/// Longest sleep of a stage that has nothing to do. The stage sends a heartbeat at least this often.
 inline constexpr std::chrono::milliseconds kNap{100};
 
-/// How often what the next start goes on with is handed to the keeper.
+/// Interval at which the odometry that the next start goes on with is handed to the keeper.
 inline constexpr std::chrono::milliseconds kHandOverInterval{250};
 
-/// How often what is expected of an image is told, at most: of all those of a camera that people look through.
+/// Shortest interval between two images for which the expected bearings are published. It is shorter than the image
+/// interval of a 30 Hz camera, so no image of such a camera is left out.
 inline constexpr std::chrono::milliseconds kExpectedInterval{30};
 
-/// When a stage tells its status: at the start, at once when its condition changes, and once a second for what is
-/// counted in it.
+/// Decides when a stage publishes its status: on the first call, at once when its condition changes, and otherwise once
+/// a second to update the counters.
 ///
 /// Thread contract: thread-bound. Nothing allocates.
 template <class Condition>
@@ -25,14 +26,14 @@ class StatusPace {
   using Clock = std::chrono::steady_clock;
   static constexpr Clock::duration kInterval = std::chrono::seconds(1);
 
-  /// Whether to tell it now, and then it counts as told.
+  /// True: the status is to be published now. The call then records `condition` as published.
   bool due(const Condition& condition, Clock::time_point now) {
     if (!is_change(condition) && now < next_) return false;
     told_ = condition;
     next_ = now + kInterval;
     return true;
   }
-  /// Whether another one was told last, or none yet.
+  /// True: the condition published last is a different one, or none has been published yet.
   bool is_change(const Condition& condition) const { return told_ != condition; }
 
  private:

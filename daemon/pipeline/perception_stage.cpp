@@ -14,11 +14,11 @@ void PerceptionStage::observe(const Frame& frame, BearingSet& out) {
   account(out.trouble, Clock::now() - start);
 }
 
-/// No bytes: it cannot be decoded.
+/// Returns a view without bytes when the frame cannot be decoded.
 ImageView PerceptionStage::uncompressed(const Frame& frame) {
   ImageView image = frame.view();
   if (image.format.pixels == PixelFormat::mjpeg) {
-    // A decoder may read a byte twice, and whoever fills the frame's buffer may change it meanwhile.
+    // The buffer is copied because the decoder may read a byte twice, and the camera may change the buffer meanwhile.
     jpeg_.assign(image.bytes.begin(), image.bytes.end());
     image.bytes = jpeg_;
   }

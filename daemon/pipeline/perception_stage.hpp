@@ -13,24 +13,25 @@
 
 namespace azimuth {
 
-/// From frames as cameras send them to bearings: decodes what is compressed and hands it to a front end.
+/// Turns camera frames into bearings: it decodes compressed frames and hands the images to a front end.
 ///
-/// Thread contract: thread-bound. Of ours nothing allocates in the steady state; libjpeg's working memory comes and
-/// goes with each compressed frame.
+/// Thread contract: thread-bound. This code allocates nothing in the steady state; libjpeg allocates working memory for
+/// each compressed frame.
 class PerceptionStage {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Compressed frames are decoded to `decoded`: gray8, rgb8 or bgr8.
+  /// `decoded` is the pixel format into which compressed frames are decoded: gray8, rgb8 or bgr8.
   PerceptionStage(std::unique_ptr<Perception> perception, PixelFormat decoded);
 
-  /// Replaces what `out` holds by what the frame shows, with the frame's stamp and sequence. A frame that cannot be
-  /// decoded gives no bearings and says why, as Perception does.
+  /// Replaces the contents of `out` by the bearings found in the frame, with the frame's stamp and sequence number. A
+  /// frame that cannot be decoded gives no bearings; `out.trouble` then names the cause.
   void observe(const Frame& frame, BearingSet& out);
 
-  /// What became of the frames so far.
+  /// Counts and timing of the frames observed so far.
   const PerceptionStatus& status() const { return status_; }
-  /// Whether that is news: once a second, and whenever the trouble has changed. The next second begins then.
+  /// True: the status is to be published now, once a second and whenever the trouble has changed. A call that returns
+  /// true starts the next interval.
   bool is_news(Clock::time_point now);
 
  private:
@@ -42,7 +43,7 @@ class PerceptionStage {
   JpegDecoder decoder_;
   std::vector<std::byte> jpeg_;
   PerceptionStatus status_;
-  double detect_sum_us_ = 0.0;  // since the last report
+  double detect_sum_us_ = 0.0;  // sum since the last report
   std::uint64_t detected_ = 0;
   StatusPace<ImageTrouble> pace_;
 };

@@ -14,14 +14,15 @@ PerceptionTurn::PerceptionTurn(PerceptionStage& stage, Wires wires, Doorbell& be
 void PerceptionTurn::operator()() {
   bell_.wait(kNap);
   const bool over = wires_.sources_over.is_set();
-  // Without room the frame stays where a newer one replaces it: what is lost is the oldest, as when images are slow.
+  // Without room the frame stays in its wire, where a newer one replaces it. So the oldest frames are lost, as when
+  // perception is slow.
   if (!wires_.bearings.has_room()) return;
   if (wires_.frames.take(frame_)) {
     stage_.observe(frame_, set_);
     if (wires_.seen_images) show(frame_);
     wires_.bearings.push(set_);
     if (wires_.kept_images) keep(frame_);
-    frame_ = Frame{};  // only now: a played source waits for it
+    frame_ = Frame{};  // only now, because a played source waits for the frame to come back
   }
   if (stage_.is_news(PerceptionStage::Clock::now()) || over) {
     news_ = stage_.status();
@@ -30,7 +31,8 @@ void PerceptionTurn::operator()() {
   if (over) wires_.samples_over.set();
 }
 
-/// Before the bearings go to the estimator, which is to say what it expected of this very image.
+/// Runs before the bearings go to the estimator, so that the estimator knows that it has to publish the expected
+/// bearings of this image.
 void PerceptionTurn::show(const Frame& frame) {
   const auto now = std::chrono::steady_clock::now();
   if (now < next_picture_) return;
@@ -38,11 +40,11 @@ void PerceptionTurn::show(const Frame& frame) {
   image_.format = frame.format();
   image_.bytes.assign(frame.bytes().begin(), frame.bytes().end());
   image_.seen = set_;
-  wires_.shown.store(set_.stamp, std::memory_order_relaxed);  // the bearings' wire orders it
+  wires_.shown.store(set_.stamp, std::memory_order_relaxed);  // the push into the bearings' wire orders this store
   wires_.seen_images->publish(image_);
 }
 
-/// After its bearings have gone on, which are in a hurry.
+/// Runs after the bearings have been sent, because they have priority.
 void PerceptionTurn::keep(const Frame& frame) {
   if (!pace_.takes(frame.stamp)) return;
   if (!wires_.kept_images->has_room()) return wires_.kept_images->refuse();

@@ -13,7 +13,8 @@
 
 namespace azimuth {
 
-/// What the perception's thread does: an image in, its bearings out, and copies of it for those who draw and record.
+/// The turn of the perception thread: it takes a frame, sends its bearings to the estimator, and sends copies of the
+/// image to the painter and the frame recorder.
 ///
 /// Thread contract: thread-bound.
 class PerceptionTurn {
@@ -23,13 +24,14 @@ class PerceptionTurn {
     BearingsWire& bearings;
     Newest<PerceptionStatus>& status;
     EndMark &sources_over, &samples_over;
-    // Null where nobody draws or records.
+    // The pointers below are null where images are not painted or not recorded.
     Newest<SeenImage>* seen_images;
     std::atomic<Stamp>& shown;
     ImagesWire* kept_images;
   };
 
-  /// Pictures come `picture_interval` apart; of the images at most `kept_rate_hz` are recorded, 0: all.
+  /// Images for the painter are at least `picture_interval` apart. At most `kept_rate_hz` images per second are
+  /// recorded; 0: all.
   PerceptionTurn(PerceptionStage& stage, Wires wires, Doorbell& bell, std::chrono::nanoseconds picture_interval,
                  double kept_rate_hz);
 

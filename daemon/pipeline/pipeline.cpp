@@ -8,7 +8,7 @@
 namespace azimuth {
 namespace {
 
-/// Encoding images takes time that everything else can use better.
+/// Nice value of the frame recorder. Encoding images takes time that all other threads use better.
 constexpr int kBackgroundNice = 10;
 
 }  // namespace
@@ -73,7 +73,7 @@ Pipeline::Pipeline(Stages stages, const ThreadSettings& threads, Doorbell& super
   }
 }
 
-/// In flow order.
+/// The rows are in the order in which samples pass through the threads.
 std::vector<Pipeline::Thread> Pipeline::table(const ThreadSettings& threads) {
   const auto spec = [&](const char* name, const StageScheduling& scheduling) {
     return StageSpec{name, scheduling.fifo_priority, scheduling.cpu, std::chrono::milliseconds(threads.deadline_ms)};
@@ -163,7 +163,7 @@ PublisherTurn::Wires Pipeline::publisher_wires() {
 }
 
 void Pipeline::start() {
-  // OpenCV would give a part of what a stage asks of it to threads of its own, which have no stage's priority.
+  // OpenCV would run a part of a stage's work on threads of its own, which do not have the stage's priority.
   cv::setNumThreads(0);
   started_ = true;
   std::for_each(threads_.rbegin(), threads_.rend(), [](const auto& thread) { thread->start(); });
@@ -175,7 +175,7 @@ void Pipeline::stop() {
     threads_[i]->stop();
     table_[i].when_stopped();
   }
-  // With all threads at rest, what they own is this one's.
+  // All threads are at rest, so this thread may touch their objects.
   if (started_ && keeper_) keeper_->save_last(estimator_.stage(), *stages_.sources.front());
 }
 

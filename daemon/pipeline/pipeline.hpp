@@ -1,42 +1,47 @@
 #pragma once
-/*  The whole daemon at a glance. Data flows from left to right; every arrow is one wire below.
+// clang-format off
+/*  The whole daemon at a glance. Data flows from left to right; every arrow is one wire of the table below.
  *
  *   source(s) ──frames──▶ perception ──bearings──▶ estimator ──estimates────▶ publisher ──▶ LCM
  *     │ ├────────────odometry───────────────────────▶ │ └───────predictions──▶   ▲  │  └──status──▶ supervisor
  *     │ └────(or ready-made bearings)───────────────▶ ├─samples taken (echoes)───┤  └─messages sent─▶ recorder ──▶ log
  *     │                    │                          └─samples taken────────────┼────────────────────▶  │
  *     ├─device status──────┴─perception status───────────────────────────────────┴─────record status─────┘
- *     └─device events──▶ supervisor ◀──whether the odometry goes on── estimator
+ *     └─device events──▶ supervisor ◀──whether the odometry continues from before the start── estimator
  *
- *   perception ──images looked at──▶ frame recorder ──▶ its own log      when images are to be recorded
- *   estimator ──maps──▶ keeper ──▶ map file       now and then; each map goes in storage that the keeper sent before
- *   estimator ──paths──▶ publisher                now and then, in storage that the publisher sent before; it sends
- * those that have moved source ──odometer memory──▶ keeper ◀──way since the map── estimator      for the next start,
- * which goes on with it perception ──images seen──▶ painter ◀──what was expected of them── estimator      now and then,
- * for people
+ *   perception ──images──▶ frame recorder ──▶ its own log               if images are to be recorded
+ *   perception ──images──▶ painter ◀──expected bearings── estimator     now and then, pictures for people
+ *   estimator ──maps──▶ keeper ──▶ map file                             now and then, in storage from the keeper
+ *   estimator ──paths──▶ publisher                                      now and then, in storage from the publisher
+ *   source ──odometer memory──▶ keeper ◀──motion since the map── estimator   for the next start of the daemon
  *
- *   wire         kind      when the reader is slow
- *   frames       Newest    the unread one is replaced, its lease returned at once; a played source waits until each has
- *                          been looked at, so none is
- *   odometry     EveryOne  a played source waits for room; a live one is refused and counted (readings are cumulative)
- *   bearings     EveryOne  likewise; perception takes no frame while there is no room, so the oldest frames go first
- *   echoes       EveryOne  refused and counted: nobody waits for the network
- *   to recorder  EveryOne  refused and counted: nobody waits for the disk
- *   images kept  EveryOne  refused and counted; copies, so that the camera has its buffers back whatever the disk does
- *   estimates    Newest    the unread one is replaced (the map in the next one is the better one)
- *   predictions  Newest    likewise
- *   findings     Newest    likewise: of samples that cannot be right, from estimator to publisher when that changes
- *   to painter   Newest    likewise
- *   maps         Newest    none is made while the one before is being saved
- *   paths        Newest    none is made while the one before is being sent
- *   to go on     Newest    the unread one is replaced
- *   statuses     Newest    likewise
- *   events       EveryOne  refused: the next status says how the device is
+ *   wire             kind      when the reader is slow
+ *   frames           Newest    The unread frame is replaced and its lease is returned at once. A played source waits
+ *                              until perception has returned each frame, so it loses none.
+ *   odometry         EveryOne  A played source waits for room. A reading of a live source is refused and counted;
+ *                              readings are cumulative, so no motion is lost.
+ *   bearings         EveryOne  Like odometry. Perception takes no frame while there is no room, so newer frames replace
+ *                              older ones in the wire before it.
+ *   echoes           EveryOne  Refused and counted, because the estimator does not wait for the network.
+ *   to recorder      EveryOne  Refused and counted, because no stage waits for the disk.
+ *   images recorded  EveryOne  Refused and counted. They are copies, so a slow disk does not keep the camera's buffers.
+ *   estimates        Newest    The unread estimate is replaced; the next one has the better map.
+ *   predictions      Newest    The unread prediction is replaced.
+ *   findings         Newest    The unread finding is replaced. It says why samples cannot be right; the estimator
+ *                              sends it to the publisher when it changes.
+ *   to painter       Newest    The unread image, and the unread expected bearings, are replaced.
+ *   maps             Newest    No map is made while the previous one is being saved.
+ *   paths            Newest    No path is made while the previous one is being sent.
+ *   for next start   Newest    The unread odometer memory, and the unread motion, are replaced.
+ *   statuses         Newest    The unread status is replaced.
+ *   events           EveryOne  Refused; the next status tells the state of the device.
  *
- * End of a recording: the source says that nothing more will come, perception looks at the last frame and says so too,
- * the estimator drains, decides what still waits and says that no estimate will come, the publisher drains and sends
- * the last map and status. A stop is the same, early; the recorder is stopped last.
+ * At the end of a recording the source sets its end mark. Perception observes the last frame and sets its own mark. The
+ * estimator drains its wires, processes the waiting samples and sets its mark. The publisher drains its wires and sends
+ * the last map and status. A stop of the daemon runs the same steps early; the recorders are stopped after the
+ * publisher.
  */
+// clang-format on
 
 #include <chrono>
 #include <functional>
@@ -66,50 +71,50 @@
 
 namespace azimuth {
 
-/// What the threads run. Each is touched by exactly one of them.
+/// The objects that the threads run. Each object is touched by exactly one thread.
 struct Stages {
-  std::vector<std::unique_ptr<Source>> sources;    ///< one or two; the odometer's before the camera's
-  std::optional<PerceptionStage> perception = {};  ///< none: bearings come ready made
+  std::vector<std::unique_ptr<Source>> sources;    ///< one or two; the odometer's source comes before the camera's
+  std::optional<PerceptionStage> perception = {};  ///< none: the source sends ready-made bearings
   EstimatorStage estimator;
   Publisher publisher;
   bool echo_samples = true;
-  std::optional<Painter> painter = {};  ///< only with perception
+  std::optional<Painter> painter = {};  ///< used only with perception
   std::optional<Recorder> recorder = {};
-  std::optional<FrameRecorder> frame_recorder = {};  ///< only beside a recorder, and with perception
+  std::optional<FrameRecorder> frame_recorder = {};  ///< used only together with recorder and perception
   std::optional<MapKeeper> keeper = {};
-  std::string picture_trouble = {};  ///< for the status
+  std::string picture_trouble = {};  ///< why no pictures can be painted; for the status
 };
 
-/// Doorbells, wires, and the threads that take turns at the stages.
+/// Owns the doorbells, the wires, and the threads that run the turns of the stages.
 ///
-/// Thread contract: everything public belongs to one thread, the supervisor's.
+/// Thread contract: all public members belong to one thread, the supervisor's.
 class Pipeline {
  public:
-  /// `supervisor` rings for every status and device event, and when the recording has been played to its end.
+  /// `supervisor` rings for every status and every device event, and when the recording has been played to its end.
   Pipeline(Stages stages, const ThreadSettings& threads, Doorbell& supervisor);
   ~Pipeline() { stop(); }
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
 
-  void start();  ///< readers before writers; once
-  void stop();   ///< writers before readers; each reader drains, then ends
+  void start();  ///< Starts readers before writers. Only once.
+  void stop();   ///< Stops writers before readers. Each reader drains its wires, then ends.
 
-  /// The whole recording has been played, estimated and published.
+  /// True: the whole recording has been played, estimated and published.
   bool finished() const { return wires_.over.everything.is_set(); }
-  /// The newest status, if there is an unread one.
+  /// Takes the newest status. False: there is no unread one.
   bool take_status(Status& into) { return wires_.statuses.take(into); }
-  /// The next thing that happened to a device.
+  /// Takes the next device event, with the source's name. False: there is none.
   bool take_event(DeviceEvent& into);
-  /// How the process is, for the status.
+  /// Passes the state of the process to the publisher, for the status.
   void tell(ProcessStatus process) { wires_.parts.process.publish(process); }
   WireLosses losses() const { return wires_.losses(); }
-  /// Of all steps. Only after stop().
+  /// The digest of the estimates of all steps. Only after stop().
   const EstimateDigest& digest() const { return estimator_.digest(); }
-  /// The map as it was last. False: there is none that could be started from. Only after stop().
+  /// Copies the last map of the estimator. False: there is no map that a start could use. Only after stop().
   bool last_map(MapSnapshot& out) const { return estimator_.stage().save_map(out); }
 
-  /// The first stage in flow order that is past its deadline; null: none. Painter, recorders and keeper are not asked:
-  /// a disk that hangs must not end the daemon.
+  /// The first stage, in the order of table(), that has exceeded its deadline; null: none. Painter, recorders and
+  /// keeper are not watched, because a hanging disk must not end the daemon.
   const StageThread* first_late(std::chrono::steady_clock::time_point now) const;
   const std::vector<StageThread*>& threads() const { return flow_; }
 
@@ -120,7 +125,8 @@ class Pipeline {
     bool is_watched;
     Doorbell& bell;
     std::function<void()> turn;
-    std::function<void()> when_stopped = [] {};  ///< before those after it are stopped
+    /// Called after this thread has stopped and before the next thread in the table is stopped.
+    std::function<void()> when_stopped = [] {};
   };
 
   std::vector<Thread> table(const ThreadSettings& threads);
@@ -134,7 +140,7 @@ class Pipeline {
   Wiring wires_;
   Stages stages_;
 
-  // What each thread does, and holds in its hands between the wires.
+  // The turn of each thread, with the values it holds between reading one wire and writing another.
   std::vector<SourceTurn> sources_;
   std::optional<PerceptionTurn> perception_;
   EstimatorTurn estimator_;
@@ -144,10 +150,10 @@ class Pipeline {
   std::optional<FrameRecorderTurn> frame_recorder_;
   std::optional<KeeperTurn> keeper_;
 
-  // Threads last, so that they end before anything they touch. In flow order.
+  // The threads are declared last, so that they end before the members they use are destroyed.
   std::vector<Thread> table_;
   std::vector<std::unique_ptr<StageThread>> threads_;
-  std::vector<StageThread*> flow_;
+  std::vector<StageThread*> flow_;  // in the order of table_
   bool started_ = false, stopped_ = false;
 };
 

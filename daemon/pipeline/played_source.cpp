@@ -57,7 +57,7 @@ bool PlayedSource::frame_is_back() {
   return !frame_is_out_;
 }
 
-/// False: no room yet; the bell will ring.
+/// False: there is no room yet. The bell rings when there is.
 bool PlayedSource::hand_over(const RunPlayer::Sample& sample, SourceWires& wires) {
   if (sample.frame) {
     if (wires.frames) send_frame(*sample.frame, sample.stamp, *wires.frames);
@@ -66,7 +66,8 @@ bool PlayedSource::hand_over(const RunPlayer::Sample& sample, SourceWires& wires
   if (sample.bearings) {
     if (!wires.bearings) return true;
     if (!wires.bearings->has_room()) return false;
-    set_ = *sample.bearings;  // a copy: what goes round on the wires has room for more than the recording's own
+    // The set is copied, because the storage that circulates on the wires is larger than that of the recording.
+    set_ = *sample.bearings;
     return wires.bearings->push(set_);
   }
   if (!wires.odometry.has_room()) return false;
@@ -74,7 +75,7 @@ bool PlayedSource::hand_over(const RunPlayer::Sample& sample, SourceWires& wires
   return wires.odometry.push(reading);
 }
 
-/// Also one that cannot be read: that is news, too.
+/// An image that cannot be read is sent without bytes, so that perception reports it.
 void PlayedSource::send_frame(std::size_t index, Stamp stamp, FramesWire& frames) {
   assert(buffer_ && "a recording with frames needs somebody who reads them");
   const ImageView image = buffer_->read(index);

@@ -8,24 +8,26 @@
 
 namespace azimuth {
 
-/// Reads one image of a recording; valid until the next call. No bytes: it cannot be read.
+/// Reads one image of a recording by its index. The view is valid until the next call. Without bytes: the image cannot
+/// be read.
 using ReadFrame = std::function<ImageView(std::size_t index)>;
 
-/// Plays a recording at its own pace. It can wait for perception and the estimator, so nothing is refused or replaced.
+/// Plays a recording at its own pace. The source can wait for perception and the estimator, so no sample is refused and
+/// no frame replaced.
 ///
-/// A frame is read when it is due, into the only buffer there is, and nothing is sent after it until perception has
-/// given that back: the estimator gets the samples in the order a replay without threads gives them in.
+/// A frame is read when it is due, into the only buffer. The source sends nothing more until perception has returned
+/// the buffer, so the estimator gets the samples in the same order as in a replay without threads.
 class PlayedSource final : public Source {
  public:
-  /// `read_frame` is needed where the recording has frames.
+  /// `read_frame` is required if the recording has frames.
   PlayedSource(Recording recording, double speed, ReadFrame read_frame = {});
 
   const char* name() const override { return "player"; }
   bool turn(Doorbell& bell, SourceWires& wires) override;
-  void restore(const OdometerMemory& /*memory*/) override {}  // a recording has its own origins
+  void restore(const OdometerMemory& /*memory*/) override {}  // the stamps of a recording have their own origins
 
  private:
-  /// What a leased frame lives in.
+  /// The buffer behind the leased frame.
   struct OneBuffer;
 
   bool hand_over(const RunPlayer::Sample& sample, SourceWires& wires);

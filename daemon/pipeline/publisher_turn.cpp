@@ -54,7 +54,8 @@ void PublisherTurn::step() {
   if (wires_.poses_out) wires_.poses_out->tell(stamp);
 }
 
-/// A step had an image and odometry. A prediction may go on without images for long.
+/// The health of a step already takes the devices into account. A prediction may continue for long without images, so
+/// its health is corrected by the state of the devices.
 void PublisherTurn::predict() {
   const ToldHealth told = told_health(prediction_, known_.odometer, known_.camera);
   prediction_.health = told.health;
@@ -67,7 +68,7 @@ void PublisherTurn::drain_echoes() {
   for (std::size_t i = 0; i < kBearingsRing && wires_.bearings_echo.pop(set_); ++i) publisher_.bearings(set_);
 }
 
-/// One that begins or ceases to work is news.
+/// A device that starts or stops working makes the next status due at once.
 void PublisherTurn::gather_devices() {
   const auto now = Publisher::Clock::now();
   for (const std::size_t i : {0U, 1U}) {

@@ -15,8 +15,8 @@
 
 namespace azimuth {
 
-/// What the publisher's thread does: estimates and echoes in, messages out; and it puts together what every other
-/// thread says of itself.
+/// The turn of the publisher's thread: it takes estimates and sample echoes and sends messages. It also assembles the
+/// status from the reports of all other threads.
 ///
 /// Thread contract: thread-bound.
 class PublisherTurn {
@@ -32,14 +32,14 @@ class PublisherTurn {
     Newest<MapStatus>& map;
     Newest<ProcessStatus>& process;
     Newest<SampleFinding>& findings;
-    SentWire* sent;       ///< null: nobody records
-    PosesOut* poses_out;  ///< null: nobody waits for them
+    SentWire* sent;       ///< null: nothing is recorded
+    PosesOut* poses_out;  ///< null: no frame recorder waits for poses
     Newest<PathStorage>&path_storage, &paths;
     Newest<Status>& statuses;
     EndMark &estimates_over, &published_all;
   };
 
-  /// `losses` may be asked by any thread. `picture_trouble` is for the status.
+  /// `losses` must be callable from any thread. `picture_trouble` goes into the status.
   PublisherTurn(Publisher publisher, Wires wires, Doorbell& bell, std::function<WireLosses()> losses,
                 std::string picture_trouble);
   PublisherTurn(const PublisherTurn&) = delete;
@@ -64,11 +64,11 @@ class PublisherTurn {
   OdometryReading reading_;
   BearingSet set_;
   SentMessage sent_;
-  std::array<Publisher::Clock::time_point, kMaxSources> worked_;  // the devices, last
-  // Here, at the estimator's, or on its way.
+  std::array<Publisher::Clock::time_point, kMaxSources> worked_;  // when each source's device last worked
+  // The storage for the path is either here, with the estimator, or on a wire.
   PathStorage path_ = std::make_unique<std::vector<PathPose>>();
-  Status known_;   // of what others said last
-  Status status_;  // storage of it goes round
+  Status known_;   // the newest report of every other thread
+  Status status_;  // a copy of known_ that is swapped into the wire
 };
 
 }  // namespace azimuth

@@ -38,7 +38,7 @@ std::chrono::nanoseconds RunPlayer::due_in(Clock::time_point now, std::chrono::n
     first_stamp_ = stamp;
   }
   if (speed_ == 0.0) return {};
-  // In seconds first: a gap of years in the stamps must not overflow nanoseconds.
+  // Computed in seconds first: a gap of years between stamps must not overflow nanoseconds.
   const double due_s = to_seconds(stamp - first_stamp_) / speed_;
   const double left_s = due_s - std::chrono::duration<double>(now - start_).count();
   const double limit_s = std::chrono::duration<double>(limit).count();

@@ -11,39 +11,41 @@
 
 namespace azimuth {
 
-/// A recorded run's samples, each kind in the order of its stamps. Either bearings or frames.
+/// The samples of a recorded run, each kind in the order of its stamps. A recording has either bearings or frames.
 struct Recording {
   std::vector<OdometryReading> odometry;
   std::vector<BearingSet> bearings;
-  std::vector<Stamp> frames = {};  ///< when images were taken; they themselves stay on the disk
+  std::vector<Stamp> frames = {};  ///< Stamps of the images. The images themselves stay on the disk.
 };
 
-/// Plays a recording: says which sample is due, and when the next one will be.
+/// Plays a recording: tells which sample comes next, and when it is due.
 ///
-/// Samples come in the order of their stamps, odometry before bearings or frames of the same stamp: whoever is given a
-/// bearing set has been given all odometry up to its instant, whatever the speed.
+/// Samples come in the order of their stamps, and odometry comes before bearings or frames of the same stamp. So the
+/// receiver of a bearing set already has all odometry up to that set's stamp, at any speed.
 ///
-/// Thread contract: thread-bound, except finished(), which any thread may ask. Nothing allocates after construction.
+/// Thread contract: thread-bound. Nothing allocates after construction.
 class RunPlayer {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `speed` 1 is the recording's own pace, 2 twice as fast, 0 as fast as possible.
+  /// `speed` 1 is the recording's own pace, 2 is twice as fast, 0 is as fast as possible.
   RunPlayer(Recording recording, double speed);
 
-  /// The next sample: exactly one of the three is there, or none when the recording is over.
+  /// The next sample. Exactly one of the three kinds is present, or none when the recording is over.
   struct Sample {
     const OdometryReading* odometry = nullptr;
-    BearingSet* bearings = nullptr;         ///< may be swapped away: it will not be asked for again
-    std::optional<std::size_t> frame = {};  ///< by its index
+    /// The caller may swap the contents of the set away, because the player does not read the set again.
+    BearingSet* bearings = nullptr;
+    std::optional<std::size_t> frame = {};  ///< index of the image in Recording::frames
     Stamp stamp{};
   };
   Sample peek();
 
-  /// Time until the sample peeked at is due, at most `limit`; not positive: now. The first question starts the clock.
+  /// Time until the next sample is due, at most `limit`; zero or negative: it is due now. The first call starts the
+  /// clock.
   std::chrono::nanoseconds due_in(Clock::time_point now, std::chrono::nanoseconds limit);
 
-  /// Goes on to the sample after the one peeked at.
+  /// Proceeds to the next sample.
   void advance();
 
   bool over() const {

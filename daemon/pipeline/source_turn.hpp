@@ -8,10 +8,10 @@
 
 namespace azimuth {
 
-/// What the thread of a source does. Thread contract: thread-bound, source() only while the thread is at rest.
+/// The turn of a source's thread. Thread contract: thread-bound; source() only while the thread is at rest.
 class SourceTurn {
  public:
-  /// `memories` is null where nobody keeps what the next start goes on with.
+  /// `memories` is null when no keeper saves the odometer's state for the next start.
   struct Wires {
     SourceWires samples;
     Newest<OdometerMemory>* memories;

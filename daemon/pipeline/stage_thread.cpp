@@ -37,7 +37,7 @@ void StageThread::run(const std::stop_token& stop) {
     turn_();
     beat();
   }
-  wake_.ring();  // the last turn must not sleep
+  wake_.ring();  // so that the last turn does not sleep
   turn_();
 }
 
@@ -49,7 +49,7 @@ void StageThread::apply_spec() {
     CPU_SET(static_cast<std::size_t>(spec_.cpu), &cpus);
     cpu_refused_.store(pthread_setaffinity_np(pthread_self(), sizeof cpus, &cpus), std::memory_order_release);
   }
-  // Of this thread alone, as Linux has it. What is the nicer is never refused.
+  // On Linux, the nice value applies to this thread only. Raising it is never refused.
   if (spec_.nice > 0) static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), spec_.nice));
   if (spec_.fifo_priority > 0) {
     const sched_param parameters{.sched_priority = spec_.fifo_priority};

@@ -11,37 +11,39 @@
 namespace azimuth {
 
 struct StageSpec {
-  const char* name;                    ///< at most 15 characters, as `top -H` shows it
+  const char* name;                    ///< at most 15 characters, as shown by `top -H`
   int fifo_priority = 0;               ///< SCHED_FIFO; 0: normal scheduling
-  int cpu = -1;                        ///< the only CPU it may run on; -1: any
-  std::chrono::milliseconds deadline;  ///< longest honest time between two beats
-  int nice = 0;                        ///< under normal scheduling, how readily it gives way
+  int cpu = -1;                        ///< the only CPU that the thread may run on; -1: any
+  std::chrono::milliseconds deadline;  ///< longest allowed time between two heartbeats
+  int nice = 0;                        ///< nice value under normal scheduling; threads with lower values go first
 };
 
-/// One named thread that takes turns until it is stopped. It beats once a turn; the supervisor compares the beats with
-/// the deadline.
+/// A named thread that repeats its turn until it is stopped. It records a heartbeat after each turn, and the supervisor
+/// compares the age of the heartbeat with the deadline.
 ///
-/// Thread contract: start(), stop() and the destructor belong to one thread; late() and refusals may be asked by any.
+/// Thread contract: start(), stop() and the destructor belong to one thread; any thread may call late() and the
+/// functions for refusals.
 class StageThread {
  public:
-  /// `turn()` does one bounded piece of work, sleeping on `wake` while there is none, and returns within the deadline.
-  /// After the stop it runs once more, to drain what arrived before.
+  /// `turn` does one bounded piece of work, or sleeps on `wake` while there is none, and returns within the deadline.
+  /// After stop() the turn runs once more, to drain what has arrived.
   StageThread(StageSpec spec, Doorbell& wake, std::function<void()> turn);
   ~StageThread() { stop(); }
   StageThread(const StageThread&) = delete;
   StageThread& operator=(const StageThread&) = delete;
 
-  /// Starts once; a stopped stage stays stopped. Throws std::system_error when the system refuses a thread.
+  /// Starts the thread once; a stopped stage cannot be started again. Throws std::system_error when the system refuses
+  /// a thread.
   void start();
-  /// Waits for the turn at hand and the last one. Does nothing when not running.
+  /// Waits for the current turn and the last one. Does nothing when the thread is not running.
   void stop();
 
-  /// Whether the last beat is older than the deadline. A stage that does not run is never late.
+  /// True: the last heartbeat is older than the deadline. A stage that does not run is never late.
   bool late(std::chrono::steady_clock::time_point now) const;
 
   const StageSpec& spec() const { return spec_; }
 
-  /// What of the spec the system refused, as errno; 0: nothing. Known once the first turn began.
+  /// The errno with which the system refused a part of the spec; 0: not refused. Valid once the first turn has begun.
   int priority_refused() const { return priority_refused_.load(std::memory_order_acquire); }
   int cpu_refused() const { return cpu_refused_.load(std::memory_order_acquire); }
 

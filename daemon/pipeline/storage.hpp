@@ -1,5 +1,5 @@
 #pragma once
-// Storage goes round between the stages, so every piece of it starts out large enough.
+// Storage circulates between the stages, so every piece is reserved large enough before the threads start.
 
 #include <memory>
 #include <vector>
@@ -11,7 +11,8 @@
 
 namespace azimuth {
 
-/// Goes from the publisher to the estimator as a request for the path, and comes back with it, or empty.
+/// Storage for the path. The publisher sends the storage to the estimator as a request for the path, and the storage
+/// comes back with the path, or empty.
 using PathStorage = std::unique_ptr<std::vector<PathPose>>;
 
 inline void prepare(BearingSet& set) { set.bearings.reserve(kTypicalBearings); }

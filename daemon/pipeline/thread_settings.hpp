@@ -2,16 +2,17 @@
 
 namespace azimuth {
 
-/// How one stage's thread is scheduled.
+/// Scheduling of one stage's thread.
 struct StageScheduling {
   int fifo_priority = 0;  ///< SCHED_FIFO; 0: normal scheduling
-  int cpu = -1;           ///< the only CPU it may run on; -1: any
+  int cpu = -1;           ///< the only CPU that the thread may run on; -1: any
 };
 
 struct ThreadSettings {
-  StageScheduling source;  ///< of every source's thread
+  StageScheduling source;  ///< for the thread of every source
   StageScheduling perception, estimator, publisher, recorder;
-  int deadline_ms = 2000;  ///< a stage whose turn takes longer counts as hung: the watchdog is no longer fed
+  /// A stage whose turn takes longer than this counts as hung: the watchdog is no longer fed.
+  int deadline_ms = 2000;
 };
 
 }  // namespace azimuth

@@ -1,8 +1,9 @@
 #pragma once
-// The only memory two threads of the pipeline share. Two kinds, named by what happens when the reader is slow.
+// The wires are the only memory that two threads of the pipeline share. The two kinds of wires differ in what happens
+// when the reader is slow.
 //
-// Values are swapped in and out, so the storage inside them (a vector's, say) goes round between the two ends and the
-// wire: once every piece has grown to the size needed, nothing allocates.
+// Values are swapped in and out, so the storage inside them (of a vector, for example) circulates between the wire and
+// its two ends. Once every piece has grown to the size needed, nothing allocates.
 
 #include <array>
 #include <atomic>
@@ -16,11 +17,11 @@
 
 namespace azimuth {
 
-/// What two threads write is kept apart by this, so that they do not fight over one cache line.
+/// Alignment that puts variables written by two threads into different cache lines, against false sharing.
 inline constexpr std::size_t kCacheLine = 64;
 
-/// Asserts that one end of a wire is used by one thread only: a second one would lose samples or hang. Costs nothing
-/// where assertions are off.
+/// Asserts that only one thread uses one end of a wire. A second thread would lose samples or hang. It costs nothing
+/// when assertions are off.
 class OneThread {
  public:
   void check() noexcept {
@@ -38,28 +39,28 @@ class OneThread {
 #endif
 };
 
-/// Every sample counts: a ring. Full: the new sample is refused and counted.
+/// A ring that keeps every sample. When the ring is full, a new sample is refused and counted.
 ///
-/// Made = read + refused + still inside, whatever the threads do.
+/// Invariant under all interleavings: samples offered = read + refused + still in the ring.
 ///
-/// Thread contract: one producer (push, has_room), one consumer (pop); counters may be read by any thread.
+/// Thread contract: one producer (push, has_room), one consumer (pop); any thread may read the counters.
 template <class T, std::size_t Capacity>
 class EveryOne {
   static_assert(Capacity >= 2 && (Capacity & (Capacity - 1)) == 0, "capacity must be a power of two");
 
  public:
-  /// `consumer` is rung for every sample; `producer`, if there is one, when a full ring has room again.
+  /// Every sample rings `consumer`. `producer`, if there is one, rings when a full ring has room again.
   explicit EveryOne(Doorbell& consumer, Doorbell* producer = nullptr) : consumer_(consumer), producer_(producer) {}
 
   static constexpr std::size_t capacity() { return Capacity; }
 
-  /// Lets `grow` give every slot its storage beforehand. Only before the threads start.
+  /// Lets `grow` reserve the storage of every slot. Only before the threads start.
   template <class Grow>
   void prepare(const Grow& grow) {
     for (T& slot : slots_) grow(slot);
   }
 
-  /// Takes `value` in and leaves recycled storage of unspecified content in its place. False: refused, `value`
+  /// Moves `value` in and leaves recycled storage of unspecified content in its place. False: refused, `value` is
   /// unchanged.
   bool push(T& value) noexcept {
     writer_.check();
@@ -75,18 +76,19 @@ class EveryOne {
     return true;
   }
 
-  /// Whether the next push() will succeed. When it says no, the producer's doorbell rings once the ring is half empty:
-  /// for a producer that can wait.
+  /// Whether the next push() will succeed. After a false result, the producer's doorbell rings once the ring is half
+  /// empty. The function is for a producer that can wait.
   bool has_room() noexcept {
     writer_.check();
     if (size() < Capacity) return true;
-    // Either this thread sees what the consumer has read since, or the consumer sees this flag: both sides store
-    // before they load, sequentially consistent.
+    // Both sides store before they load, sequentially consistent. So either this thread sees the consumer's newest
+    // read, or the consumer sees this flag.
     wants_room_.store(true);
     return size() < Capacity;
   }
 
-  /// Takes the oldest sample out and leaves the storage of `into` in the ring. False: empty, `into` unchanged.
+  /// Takes the oldest sample and leaves the storage of `into` in the ring. False: the ring is empty, `into` is
+  /// unchanged.
   bool pop(T& into) noexcept {
     reader_.check();
     const std::uint64_t read = read_.load(std::memory_order_relaxed);
@@ -100,12 +102,12 @@ class EveryOne {
     return true;
   }
 
-  /// Counts a sample that was not even made for want of room.
+  /// Counts a sample that the producer did not even make because there was no room.
   void refuse() noexcept { refused_.fetch_add(1, std::memory_order_relaxed); }
 
   std::uint64_t refused() const noexcept { return refused_.load(std::memory_order_relaxed); }
 
-  /// How many are in it, by what this end of it knows of the other.
+  /// Number of samples in the ring, as known at the calling end.
   std::uint64_t size() const noexcept { return write_.load(std::memory_order_relaxed) - read_.load(); }
 
  private:
@@ -119,23 +121,23 @@ class EveryOne {
   std::atomic<bool> wants_room_{false};
 };
 
-/// Only the newest counts: three slots. An unread value is replaced and counted.
+/// Keeps only the newest value, in three slots. An unread value is replaced and counted.
 ///
-/// Published = taken + replaced + still inside (0 or 1), whatever the threads do.
+/// Invariant under all interleavings: values published = taken + replaced + still in the wire (0 or 1).
 ///
-/// Thread contract: one producer (publish), one consumer (take); the counter may be read by any thread.
+/// Thread contract: one producer (publish), one consumer (take); any thread may read the counter.
 template <class T>
 class Newest {
  public:
   explicit Newest(Doorbell& consumer) : consumer_(consumer) {}
 
-  /// As EveryOne::prepare().
+  /// Like EveryOne::prepare().
   template <class Grow>
   void prepare(const Grow& grow) {
     for (T& slot : slots_) grow(slot);
   }
 
-  /// Takes `value` in and leaves in its place the value it replaced, or recycled storage of unspecified content.
+  /// Moves `value` in and leaves the value it replaced, or recycled storage of unspecified content, in its place.
   void publish(T& value) noexcept {
     writer_.check();
     using std::swap;
@@ -143,11 +145,11 @@ class Newest {
     const unsigned before = middle_.exchange(back_ | kFresh, std::memory_order_acq_rel);
     back_ = before & kIndex;
     if (before & kFresh) replaced_.fetch_add(1, std::memory_order_relaxed);
-    swap(slots_[back_], value);  // a replaced value leaves now, and whatever it holds on to with it
+    swap(slots_[back_], value);  // hands a replaced value back at once, so that its resources are released
     consumer_.ring();
   }
 
-  /// Takes the unread value out. False: nothing new, `into` unchanged.
+  /// Takes the unread value. False: there is none, `into` is unchanged.
   bool take(T& into) noexcept {
     reader_.check();
     if (!(middle_.load(std::memory_order_relaxed) & kFresh)) return false;
@@ -165,9 +167,9 @@ class Newest {
   Doorbell& consumer_;
   OneThread writer_, reader_;
   std::array<T, 3> slots_{};
-  alignas(kCacheLine) unsigned back_ = 0;  // the producer's
+  alignas(kCacheLine) unsigned back_ = 0;  // slot of the producer
   alignas(kCacheLine) std::atomic<unsigned> middle_{1};
-  alignas(kCacheLine) unsigned front_ = 2;  // the consumer's
+  alignas(kCacheLine) unsigned front_ = 2;  // slot of the consumer
   alignas(kCacheLine) std::atomic<std::uint64_t> replaced_{0};
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// All wires of the pipeline, with the doorbells they ring: the only memory that two of its threads share. The diagram
-// in pipeline.hpp says which is which, and what happens where the reader is slow.
+// All wires of the pipeline, with the doorbells that they ring. The drawing in pipeline.hpp names the wires and tells
+// what happens when a reader is slow.
 
 #include <array>
 #include <atomic>
@@ -22,7 +22,7 @@
 
 namespace azimuth {
 
-/// One for each thread.
+/// One doorbell for each thread.
 struct Doorbells {
   explicit Doorbells(Doorbell& of_supervisor) : supervisor(of_supervisor) {}
 
@@ -31,7 +31,7 @@ struct Doorbells {
   Doorbell& supervisor;
 };
 
-/// For the recorders.
+/// The wires to the recorders.
 struct RecordWires {
   explicit RecordWires(Doorbells& bells)
       : taken(bells.recorder),
@@ -43,20 +43,20 @@ struct RecordWires {
   TakenWire taken;
   SentWire sent;
   ImagesWire images;
-  Newest<std::string> session;  ///< that images are to be recorded beside
+  Newest<std::string> session;  ///< name of the session beside which images are recorded
   PosesOut poses_out;
 };
 
-/// For people.
+/// The wires to the painter.
 struct PictureWires {
   explicit PictureWires(Doorbells& bells) : seen(bells.painter), expected(bells.painter) {}
 
   Newest<SeenImage> seen;
   Newest<ExpectedImage> expected;
-  std::atomic<Stamp> shown{Stamp::min()};  ///< of the image that is to be painted next
+  std::atomic<Stamp> shown{Stamp::min()};  ///< stamp of the image that is painted next
 };
 
-/// For the next start.
+/// The wires to the keeper, which saves data for the next start.
 struct KeepWires {
   explicit KeepWires(Doorbells& bells)
       : storage(bells.estimator), maps(bells.keeper), memories(bells.keeper), ways(bells.keeper) {}
@@ -66,14 +66,14 @@ struct KeepWires {
   Newest<OdometryWays> ways;
 };
 
-/// For those who know where the robot has been.
+/// The wires for the path of the robot: requests (empty storage) and paths.
 struct PathWires {
   explicit PathWires(Doorbells& bells) : storage(bells.estimator), paths(bells.publisher) {}
 
   Newest<PathStorage> storage, paths;
 };
 
-/// How each part is, for the status.
+/// The wires on which each part reports its state, for the status.
 struct PartWires {
   explicit PartWires(Doorbells& bells)
       : perception(bells.publisher),
@@ -88,17 +88,18 @@ struct PartWires {
   Newest<ProcessStatus> process;
 };
 
-/// What nothing more will come of.
+/// The end marks, in the order in which they are set.
 struct EndMarks {
   explicit EndMarks(Doorbells& bells)
       : sources(bells.perception), samples(bells.estimator), estimates(bells.publisher), everything(bells.supervisor) {}
 
-  EndMark sources;  ///< only where there is perception; else a source's end is that of the samples
+  /// Set when the sources end. Used only with perception; otherwise the end of a source sets `samples`.
+  EndMark sources;
   EndMark samples, estimates;
-  EndMark everything;  ///< all is published
+  EndMark everything;  ///< set when everything has been published
 };
 
-/// Only a played source, which is alone, and perception wait for room.
+/// Only perception and a played source wait for room. A played source is the only source.
 struct Wiring {
   Wiring(Doorbells& bells, bool with_perception)
       : frames(bells.perception),
@@ -123,18 +124,18 @@ struct Wiring {
   // Samples
   FramesWire frames;
   OdometryWire odometry;
-  BearingsWire bearings;  ///< from perception if there is one, else from a source
+  BearingsWire bearings;  ///< from perception if there is one, otherwise from a source
   OdometryWire odometry_echo;
   BearingsWire bearings_echo;
-  // What becomes of them
+  // Results
   Newest<StepResult> estimates;
   Newest<Estimate> predictions;
   Newest<SampleFinding> findings;
   Newest<Status> statuses;
   std::array<Newest<DeviceStatus>, kMaxSources> devices;
   std::array<EveryOne<DeviceEvent, 16>, kMaxSources> events;
-  Newest<DeviceEvent> start_news;  ///< whether the odometry goes on
-  // Beside the way of the samples
+  Newest<DeviceEvent> start_news;  ///< whether the odometry continues from before the start
+  // Other wires
   RecordWires record;
   PictureWires pictures;
   KeepWires keep;
@@ -142,7 +143,7 @@ struct Wiring {
   PartWires parts;
   EndMarks over;
 
-  /// Gives every slot the storage it will need. Only before the threads start.
+  /// Reserves the storage of every slot. Only before the threads start.
   void prepare() {
     const auto grow = [](auto& value) { azimuth::prepare(value); };
     bearings.prepare(grow);

@@ -8,11 +8,11 @@
 
 namespace azimuth {
 
-/// What the estimator expected of an image, before it used the bearings found in it.
+/// The bearings that the estimator expected in an image, before it used the bearings detected there.
 struct ExpectedImage {
-  std::optional<Stamp> stamp;  ///< of the image; none: of none yet
+  std::optional<Stamp> stamp;  ///< stamp of the image; none: no image yet
   std::vector<ExpectedBearing> bearings;
-  std::vector<std::int64_t> in_map;  ///< ids of the map's landmarks, rising: for pictures
+  std::vector<std::int64_t> in_map;  ///< identifiers of the landmarks in the map, ascending; for pictures
 };
 
 }  // namespace azimuth

@@ -46,8 +46,8 @@ bool LcmSender::connect() {
   if (lcm_) return true;
   const auto now = std::chrono::steady_clock::now();
   if (!back_off_.is_due(now)) return false;
-  back_off_.failed(now);  // unless it turns out otherwise
-  // liblcm tells of a missing network at length on standard error, at each try: it is not asked then.
+  back_off_.failed(now);  // assumes a failure; a success ends the retries
+  // liblcm prints a long message about a missing network at each try, so it is not called then.
   const auto address = parse_lcm_url(url_);
   const int error = address ? route_error(*address) : 0;
   if (error != 0) {

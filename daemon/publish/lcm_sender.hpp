@@ -13,15 +13,15 @@ struct _lcm_t;  // NOLINT(bugprone-reserved-identifier): the name is LCM's
 
 namespace azimuth {
 
-/// The publishing end of LCM. It never subscribes, so nothing that arrives from the network is decoded.
+/// Sends LCM messages. It never subscribes, so no data from the network are decoded.
 ///
-/// A network that is not there is expected: what cannot be sent is counted, logged once when sending fails and once
-/// when it works again, and a handle that could not be made is tried for again, ever more seldom, up to every 30 s.
+/// A missing network is an expected state. Messages that cannot be sent are counted. The log gets one line when sending
+/// fails and one when it works again. A handle that could not be made is tried again at growing intervals, up to 30 s.
 ///
 /// Thread contract: thread-bound; not for real-time threads (it allocates and makes system calls).
 class LcmSender {
  public:
-  /// `prefix` comes before every channel's name.
+  /// `prefix` is put before every channel name.
   LcmSender(std::string url, std::string prefix);
   ~LcmSender();
   LcmSender(LcmSender&& other) noexcept;
@@ -29,7 +29,7 @@ class LcmSender {
   LcmSender(const LcmSender&) = delete;
   LcmSender& operator=(const LcmSender&) = delete;
 
-  /// Sends one message of the generated types.
+  /// Sends one message of a generated type.
   template <class Message>
   void send(std::string_view channel, const Message& message) {
     const int size = message.getEncodedSize();
@@ -38,7 +38,7 @@ class LcmSender {
     send_bytes(channel);
   }
 
-  /// The message sent last, whether or not it went out.
+  /// The encoded message of the last send(), even if it could not be sent.
   std::span<const std::byte> last() const { return buffer_; }
 
   std::uint64_t failures() const { return failures_; }

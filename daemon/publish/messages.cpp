@@ -10,10 +10,10 @@
 namespace azimuth {
 namespace {
 
-/// LCM has no unsigned integers.
+/// LCM has no unsigned integer types.
 constexpr std::int64_t count(std::uint64_t value) { return static_cast<std::int64_t>(value); }
 
-/// In pieces of so many; of nothing there is one piece.
+/// Number of pieces for `things` elements, `in_one` in each piece; at least one piece.
 std::int32_t pieces(std::size_t things, std::size_t in_one) {
   return static_cast<std::int32_t>(std::max<std::size_t>(1, (things + in_one - 1) / in_one));
 }
@@ -36,7 +36,7 @@ expected_bearing_t to_message(const ExpectedBearing& expected) {
   return message;
 }
 
-/// Those that were used before all others.
+/// Moves the expected bearings that were used before all others.
 void put_used_first(StepResult& step) {
   std::vector<ExpectedBearing>& bearings = step.expected.bearings;
   std::partition(bearings.begin(), bearings.end(), [&](const ExpectedBearing& each) {

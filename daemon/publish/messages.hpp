@@ -1,5 +1,6 @@
 #pragma once
-// What goes out but single estimates, which are in drivers/estimates, and samples, in drivers/wire/messages.hpp.
+// The messages that the publisher sends. Messages for single estimates are in drivers/estimates, those for samples in
+// drivers/wire/messages.hpp.
 
 #include <azimuth/expectations_t.hpp>
 #include <azimuth/kept_t.hpp>
@@ -16,33 +17,34 @@
 
 namespace azimuth {
 
-/// The shape every bot_core program understands; velocities and accelerations are not estimated and zero.
+/// A pose in the type that bot_core programs read. Velocities and accelerations are not estimated and are zero.
 pose_t bot_pose_message(const Estimate& estimate);
 
-/// How many chunks the map takes, at least one.
+/// Number of chunks into which the map is divided, at least one.
 std::int32_t map_chunks(std::size_t landmarks);
 
-/// Piece `chunk` of the map, from 0; `sequence` counts maps.
+/// Fills in chunk number `chunk` of the map, from 0. `sequence` counts maps.
 void fill_map_chunk(std::span<const LandmarkEstimate> landmarks, Stamp stamp, std::uint64_t sequence,
                     std::int32_t chunk, map_chunk_t& message);
 
-/// How many pieces a path takes, at least one.
+/// Number of chunks into which a path is divided, at least one.
 std::int32_t path_chunks(std::size_t poses);
 
-/// Piece `chunk` of the path, from 0; `sequence` counts paths.
+/// Fills in chunk number `chunk` of the path, from 0. `sequence` counts paths.
 void fill_path_chunk(std::span<const PathPose> path, std::uint64_t sequence, std::int32_t chunk, path_t& message);
 
-/// Which bearings corrected the estimate of a step; `message` is used again.
+/// Fills in the bearings that corrected the estimate of a step. The storage of `message` is reused.
 void fill_message(const Estimate& step, sightings_t& message);
 
-/// What was expected of the step's image, and how far off what was used was; what is expected is sorted by that. What
-/// is too much for a message is left out, of landmarks that were not used.
+/// Fills in the expected bearings of the step's image, and the residuals of the bearings that were used. Sorts
+/// step.expected.bearings, those used first. If they are too many for one message, expected bearings that were not used
+/// are left out.
 void fill_message(StepResult& step, expectations_t& message);
 
-/// Leaves time of sending and sequence number to the caller.
+/// The message about log and map on the disk. The caller fills in the sending time and the sequence number.
 kept_t kept_message(const Status& status);
 
-/// Leaves time of sending and sequence number to the caller.
+/// The message of the status. The caller fills in the sending time and the sequence number.
 status_t status_message(const Status& status);
 
 }  // namespace azimuth

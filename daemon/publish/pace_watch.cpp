@@ -6,8 +6,8 @@ namespace azimuth {
 namespace {
 
 constexpr std::chrono::seconds kWindow{5};
-constexpr double kMany = 0.1;          // left out of what came
-constexpr std::uint64_t kEnough = 10;  // to judge
+constexpr double kMany = 0.1;          // fraction of skipped samples from which on the skipping is reported
+constexpr std::uint64_t kEnough = 10;  // samples needed for a judgement
 
 double interval_ms(double window_s, std::uint64_t count) { return 1e3 * window_s / static_cast<double>(count); }
 

@@ -7,8 +7,9 @@
 
 namespace azimuth {
 
-/// Notices when images or bearings come faster than they are worked off: those in between are left out, and the pose is
-/// the vaguer for it. Told of the counters of a status now and then, it judges some seconds at a time.
+/// Notices when images or bearings arrive faster than they are processed. Some of them are then skipped, and the pose
+/// becomes less accurate. The caller passes the counters of the status now and then, and the watch judges them over
+/// several seconds.
 ///
 /// Thread contract: thread-bound.
 class PaceWatch {
@@ -16,7 +17,7 @@ class PaceWatch {
   using Clock = std::chrono::steady_clock;
 
   void look(Clock::time_point now, const Status& status);
-  /// For a person, with the way out; empty: all that comes is used.
+  /// A message for a person that names a remedy; empty: all images and bearings are used.
   const std::string& text() const { return text_; }
 
  private:

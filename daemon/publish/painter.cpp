@@ -19,7 +19,8 @@ namespace {
 
 std::string because(int error) { return std::generic_category().message(error); }
 
-/// Nobody ever sees a part of a picture: it takes its name when it is whole. Nothing: it has been written.
+/// Writes to a temporary file and renames it when it is complete, so that a reader never sees a part of a picture.
+/// Returns why it failed; none: success.
 std::optional<std::string> write_whole(const std::string& file, std::span<const std::byte> bytes) {
   const std::string part = file + ".part";
   const UniqueFd fd(::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));

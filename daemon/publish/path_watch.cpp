@@ -18,13 +18,13 @@ bool PathWatch::look(std::span<const PathPose> path) {
   bool moved = !any_sent_ && !path.empty();
   std::size_t at = 0;
   for (const PathPose& pose : path) {
-    while (at < told_.size() && told_[at].stamp < pose.stamp) ++at;  // thinned out since
+    while (at < told_.size() && told_[at].stamp < pose.stamp) ++at;  // the path no longer has this pose
     if (at == told_.size()) {
-      told_.push_back(pose);  // AZIMUTH_POSE has told it so
+      told_.push_back(pose);  // AZIMUTH_POSE has published this pose
     } else if (told_[at].stamp == pose.stamp) {
       moved = moved || has_moved(told_[at].T_map_body, pose.T_map_body);
     } else {
-      continue;  // between two that are known
+      continue;  // a new pose between two published ones
     }
     ++at;
   }

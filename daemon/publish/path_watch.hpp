@@ -6,18 +6,19 @@
 
 namespace azimuth {
 
-/// Whether the past has moved so far that somebody who knows the path should be told: who has been sent it once and
-/// puts every pose since then behind it.
+/// Decides whether the past poses have moved so far that a receiver of the path needs a new one. The receiver got the
+/// path once and has appended every pose since then.
 ///
-/// Thread contract: thread-bound. Allocates only as the path grows.
+/// Thread contract: thread-bound. Allocates only when the path grows.
 class PathWatch {
  public:
   static constexpr double kMoved_m = 0.05, kTurned_rad = 0.02;
 
-  /// The path as it is now, oldest first. True: a pose of it is farther than that from where it was said to be, or its
-  /// end is no longer there, or it is the first of all. Poses between may come and go.
+  /// `path` is the current path, oldest pose first. True: a pose is farther than these limits from the pose sent
+  /// before, or the end of the sent path is missing, or no path has been sent yet. Poses in between may be added or
+  /// removed.
   bool look(std::span<const PathPose> path);
-  /// That one was sent.
+  /// Records that `path` was sent.
   void sent(std::span<const PathPose> path);
 
  private:

@@ -16,9 +16,9 @@ constexpr std::chrono::seconds kStatusInterval{1};
 constexpr std::chrono::milliseconds kFreshStatus{200};
 constexpr std::chrono::seconds kDocumentsInterval{5};
 constexpr std::chrono::seconds kPathInterval{3};
-constexpr double kPathPosesPerSecond = 600.0;  // 20 kB: a long path must not fill the network, or the log
+constexpr double kPathPosesPerSecond = 600.0;  // 20 kB/s: a long path must not fill the network or the log
 
-/// Whether `next` has come; if so it moves on by `interval`.
+/// True: the time `next` has come. Then sets `next` to `interval` from now.
 bool due(std::optional<Publisher::Clock::time_point>& next, Publisher::Clock::time_point now,
          Publisher::Clock::duration interval) {
   if (!next) next = now + interval;
@@ -33,7 +33,7 @@ Publisher::Publisher(const PublishSettings& settings, std::optional<Duration> ep
     : settings_(settings),
       epoch_minus_monotonic_(epoch_minus_monotonic),
       sender_(settings.lcm_url, settings.channel_prefix) {
-  last_step_.estimate.landmarks.reserve(kTypicalLandmarks);  // it goes round with the pipeline's
+  last_step_.estimate.landmarks.reserve(kTypicalLandmarks);  // shared with the pipeline
   last_step_.estimate.accepted.reserve(kTypicalLandmarks);
   last_step_.expected.bearings.reserve(kTypicalLandmarks);
 }
@@ -43,7 +43,7 @@ void Publisher::documents(std::vector<Document> documents) {
   documents_ = std::move(documents);
 }
 
-/// For messages that are not samples: those may be recorded.
+/// Sends a message and passes it to the listeners, which may record it. Not for samples.
 template <class Message>
 void Publisher::send(std::string_view channel, Message& message) {
   sender_.send(channel, message);
@@ -57,12 +57,12 @@ std::int64_t Publisher::monotonic_us(Stamp stamp) const {
 void Publisher::step(StepResult& result) {
   std::swap(last_step_, result);
   send_pose(last_step_.estimate);
-  // What was expected before what became of it: who hears both waits for the second.
+  // Expectations are sent before sightings, because a receiver of both waits for the sightings.
   if (settings_.echo_samples && last_step_.expected.stamp) send_expectations();
   if (settings_.echo_samples) send_sightings();
   if (!settings_.print_poses) return;
   std::puts(pose_line(last_step_.estimate).c_str());
-  std::fflush(stdout);  // it may be a pipe that somebody watches
+  std::fflush(stdout);  // standard output may be a pipe with a waiting reader
 }
 
 void Publisher::prediction(const Estimate& estimate) {
@@ -82,14 +82,14 @@ void Publisher::send_pose(const Estimate& estimate) {
   last_pose_.landmarks.clear();
 }
 
-/// Listeners are not told: what they record is replayed, and the replay says the same.
+/// Listeners are not called: they record for replays, and a replay computes the same sightings.
 void Publisher::send_sightings() {
   fill_message(last_step_.estimate, sightings_message_);
   sightings_message_.utime_mono = monotonic_us(last_step_.estimate.stamp);
   sender_.send(channel::kSightings, sightings_message_);
 }
 
-/// Likewise. Of an estimator that cannot tell, or has no map yet, there is nothing to send.
+/// Listeners are not called, for the same reason. An estimator without a map has no expectations to send.
 void Publisher::send_expectations() {
   if (last_step_.expected.bearings.empty()) return;
   fill_message(last_step_, expectations_message_);
@@ -172,9 +172,9 @@ void Publisher::send_path(std::span<const PathPose> path) {
   path_watch_.sent(path);
 }
 
-/// Listeners are not told: a recorder has documents of its own.
+/// Listeners are not called: a recorder has its own copy of the documents.
 void Publisher::send_documents() {
-  if (!settings_.echo_samples) return;  // nothing to replay
+  if (!settings_.echo_samples) return;  // without samples there is nothing to replay
   for (const Document& document : documents_) {
     document_t message = to_message(document.name, document.text, last_pose_.stamp);
     message.utime_mono = now_on(CLOCK_MONOTONIC).count();
@@ -183,7 +183,7 @@ void Publisher::send_documents() {
   }
 }
 
-/// Listeners are not told: it is of the disk that they write to.
+/// Listeners are not called: the message describes the disk to which they write.
 void Publisher::send_kept(const Status& status) {
   if (status.record.text.empty() && status.map.written_us == 0) return;
   kept_t message = kept_message(status);

@@ -19,48 +19,49 @@
 
 namespace azimuth {
 
-/// Sends estimates, samples, the map, the path and the status over LCM: poses and samples as they come, the map and the
-/// status at their rates and once more at the end, the path when it has moved.
+/// Sends estimates, samples, the map, the path and the status over LCM. Poses and samples are sent when they arrive,
+/// the map and the status at their rates and once more at the end, the path when past poses have moved.
 ///
 /// Thread contract: thread-bound.
 class Publisher {
  public:
   using Clock = std::chrono::steady_clock;
-  /// Told of everything sent but samples: the channel without its prefix, the encoded message, its utime.
+  /// Called for every message except samples, with the channel without its prefix, the encoded message, and its utime.
   using Listener = std::function<void(std::string_view channel, std::span<const std::byte> message, Stamp utime)>;
 
-  /// `epoch_minus_monotonic` is what stamps lead CLOCK_MONOTONIC by; none: they are those of a recording.
+  /// `epoch_minus_monotonic` is the offset of the stamps from CLOCK_MONOTONIC; none: the stamps are those of a
+  /// recording.
   explicit Publisher(const PublishSettings& settings, std::optional<Duration> epoch_minus_monotonic = {});
 
-  /// What a log of the messages has to hold to be replayed: the rig, and what the estimator was told. Sent at once, and
-  /// again now and then for those that begin to listen later. Documents of the start are left out. Before the first
-  /// message.
+  /// Sets the documents that a log of the messages needs for a replay: the rig and the settings of the estimator. They
+  /// are sent at once, and again now and then for programs that start to listen later. Documents about the start are
+  /// not sent. Call it before the first message.
   void documents(std::vector<Document> documents);
 
-  /// Adds one more to those that are told. Before the first message.
+  /// Adds a listener. Call it before the first message.
   void listen(Listener listener) { listeners_.push_back(std::move(listener)); }
 
-  /// The estimate of a step. Its storage is kept for the map and swapped for that of the last one.
+  /// Sends the estimate of a step. Swaps `result` with the previous one and keeps it for the map.
   void step(StepResult& result);
-  /// A pose between two steps; left out when a newer one has been sent.
+  /// Sends a pose between two steps, unless a newer pose has been sent.
   void prediction(const Estimate& estimate);
   void odometry(const OdometryReading& reading);
   void bearings(const BearingSet& set);
 
-  /// Whether the path should be asked for: at most every few seconds, the less often the longer it is.
+  /// True: the path is to be requested. At most every few seconds; the longer the path, the less often.
   bool wants_path(Clock::time_point now);
-  /// The path as it is now, oldest first: sent when the past has moved (PathWatch), or the drive begins.
+  /// Sends the current path, oldest pose first, if past poses have moved (see PathWatch) or the drive has just begun.
   void path(std::span<const PathPose> path);
-  /// The one at the end: sent, whether it has moved or not, unless it is empty.
+  /// Sends the last path unless it is empty, even if nothing has moved.
   void last_path(std::span<const PathPose> path);
 
-  /// Something happened that people should hear of soon: the status is due as soon as the last one is no longer fresh.
+  /// Makes the next status due early, because something has happened that people should know soon.
   void hasten_status();
 
-  /// Sends what is due by now. True when a status was among it; it is written to `status` then.
-  /// The caller fills in what `status` says of wires, devices and the log; the rest is the publisher's.
+  /// Sends everything that is due. True: a status was sent and has been written to `status`. The caller fills in the
+  /// wires, devices and logs in `status` before the call; the publisher fills in the rest.
   bool send_due(Clock::time_point now, Status& status);
-  /// Sends the last map and status, whether due or not.
+  /// Sends the last map and status, even if they are not due.
   void send_last(Clock::time_point now, Status& status);
 
  private:
@@ -81,7 +82,7 @@ class Publisher {
   LcmSender sender_;
   std::vector<Listener> listeners_;
   StepResult last_step_;
-  Estimate last_pose_;  // of a step or predicted; without landmarks
+  Estimate last_pose_;  // newest pose, of a step or predicted; without landmarks
   bool any_estimate_ = false;
   Clock::time_point last_status_{};
   std::optional<Clock::time_point> next_map_, next_status_, next_documents_, next_path_;
@@ -90,8 +91,8 @@ class Publisher {
   map_chunk_t map_message_;
   PaceWatch pace_watch_;
   PathWatch path_watch_;
-  std::size_t path_poses_ = 0;  // of the newest one
-  std::uint64_t paths_ = 0;     // sent
+  std::size_t path_poses_ = 0;  // length of the newest path
+  std::uint64_t paths_ = 0;     // number of paths sent
   path_t path_message_;
   sightings_t sightings_message_;
   expectations_t expectations_message_;

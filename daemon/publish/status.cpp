@@ -9,7 +9,7 @@
 namespace azimuth {
 namespace {
 
-/// A robot may be anywhere by then, as far as rooms go.
+/// Time without odometry after which the pose is lost: the robot may be anywhere in a room by then.
 constexpr std::chrono::seconds kBlind{5};
 
 std::string what_is_in_trouble(const Status& status) {

@@ -13,61 +13,62 @@
 
 namespace azimuth {
 
-/// An estimate on its way to the publisher, with the digest of all steps up to it.
+/// The estimate of a step on its way to the publisher, with the digest of all steps so far.
 struct StepResult {
   Estimate estimate;
   std::uint64_t digest = 0;
-  ExpectedImage expected;  ///< before it; without a stamp: nobody looked
+  ExpectedImage expected;  ///< the expected bearings before the step; no stamp: not computed
 };
 
-/// How a device is, for a person, and what the robot says of itself.
+/// The state of a device as text, and the robot's own report.
 struct DeviceStatus {
   std::string text;  ///< e.g. "running (p3dx-sh GJC_3156)"; empty: there is no such device
   bool works = false;
-  std::chrono::steady_clock::duration away{};  ///< for how long it has not worked
+  std::chrono::steady_clock::duration away{};  ///< how long the device has not worked
   std::uint64_t reconnects = 0;
-  std::uint64_t port_resets = 0;     ///< of its USB port
-  std::uint64_t images_missing = 0;  ///< of a camera, by its sequence numbers
-  std::uint64_t images_corrupt = 0;  ///< those that came from a camera of the daemon's own, but damaged
+  std::uint64_t port_resets = 0;     ///< resets of the device's USB port
+  std::uint64_t images_missing = 0;  ///< images missing in a camera's sequence numbers
+  std::uint64_t images_corrupt = 0;  ///< damaged images from a camera that the daemon opens itself
   double battery_v = std::numeric_limits<double>::quiet_NaN();
   std::uint32_t robot_flags = 0;  ///< bits of status_t::ROBOT_*
 
-  /// There is to be such a device, and nothing comes from it.
+  /// True: the device is configured but sends nothing.
   bool is_away() const { return !works && !text.empty(); }
 };
 
-/// What became of the images.
+/// The counters of processed images.
 struct PerceptionStatus {
-  std::uint64_t frames = 0;                          ///< looked at
-  std::uint64_t frames_unusable = 0;                 ///< of them, those with a trouble
-  ImageTrouble trouble = ImageTrouble::none;         ///< of the newest
-  double detect_mean_us = 0.0, detect_max_us = 0.0;  ///< what an image of the last second cost
+  std::uint64_t frames = 0;                          ///< images processed
+  std::uint64_t frames_unusable = 0;                 ///< of these, images with a trouble
+  ImageTrouble trouble = ImageTrouble::none;         ///< trouble of the newest image
+  double detect_mean_us = 0.0, detect_max_us = 0.0;  ///< processing time per image over the last second
 };
 
-/// How the field log is.
+/// The state of a field log.
 struct RecordStatus {
-  std::string text;  ///< the file being written, or why nothing is; empty: no log was asked for
+  std::string text;  ///< the file being written, or why no file is written; empty: no log was requested
   std::uint64_t losses = 0;
-  std::uint64_t kept_bytes = 0;          ///< in its folder, of all sessions
-  std::uint64_t quota_bytes = 0;         ///< they may be so many together; 0: no quota
-  std::optional<std::uint64_t> free_mb;  ///< on its disk, when last asked; unknown until then
+  std::uint64_t kept_bytes = 0;          ///< size of all sessions in the log's folder
+  std::uint64_t quota_bytes = 0;         ///< limit of kept_bytes; 0: no quota
+  std::optional<std::uint64_t> free_mb;  ///< free space on the log's disk when last checked; none: not checked yet
 };
 
-/// How the saved map is.
+/// The state of the saved map.
 struct MapStatus {
-  std::string text;             ///< what became of the last one; empty: none is kept
-  bool trouble = false;         ///< it could not be loaded or saved
-  std::int64_t written_us = 0;  ///< when the one on the disk was, since the Unix epoch; 0: there is none
+  std::string text;             ///< what happened to the last map; empty: no map is kept
+  bool trouble = false;         ///< the map could not be loaded or saved
+  std::int64_t written_us = 0;  ///< when the map on the disk was written [us since the Unix epoch]; 0: there is none
 };
 
-/// How the process itself is.
+/// The state of the process itself.
 struct ProcessStatus {
-  std::string realtime;           ///< what of it is in force and what was refused; empty: nothing was asked for
-  bool realtime_refused = false;  ///< some of it
-  std::string configuration;      ///< what became of one that was refused while the daemon ran; empty: none was
+  std::string realtime;           ///< real-time settings in force and refused; empty: none were requested
+  bool realtime_refused = false;  ///< some of them were refused
+  /// Why a new configuration was refused while the daemon was running; empty: none was refused.
+  std::string configuration;
 };
 
-/// What the wires between the threads lost since the start.
+/// Samples that the wires between the threads have lost since the start.
 struct WireLosses {
   std::uint64_t odometry_refused = 0;
   std::uint64_t bearings_refused = 0;
@@ -77,38 +78,40 @@ struct WireLosses {
   std::uint64_t records_refused = 0;
 };
 
-/// How the daemon is, once a second: for LCM, systemd and the status line.
+/// The state of the daemon, once a second, for LCM, systemd and the status line.
 struct Status {
   bool any_estimate = false;
-  Estimate estimate;  ///< the newest; without landmarks
+  Estimate estimate;  ///< the newest estimate, without landmarks
   std::size_t landmarks = 0;
-  std::uint64_t published = 0;  ///< estimates, predicted ones included
-  std::uint64_t digest = 0;     ///< of all steps
+  std::uint64_t published = 0;  ///< number of estimates, including predicted ones
+  std::uint64_t digest = 0;     ///< digest of all steps
   WireLosses wires;
   std::uint64_t publish_failures = 0;
   DeviceStatus odometer, camera;
   PerceptionStatus perception;
   RecordStatus record;
-  RecordStatus frame_record;  ///< of the images; empty: none are to be recorded
+  RecordStatus frame_record;  ///< the log of the images; empty: no images are to be recorded
   MapStatus map;
   ProcessStatus process;
-  SampleFinding samples;  ///< what keeps them from being of use
-  std::string pace;       ///< that they come faster than they are worked off; empty: they do not
-  std::string picture;    ///< why there are no pictures although they were asked for; empty: there are, or none were
+  SampleFinding samples;  ///< why the samples are of no use
+  /// A message that samples arrive faster than they are processed; empty: they do not.
+  std::string pace;
+  /// Why requested pictures are not made; empty: they are made, or none were requested.
+  std::string picture;
 
-  /// Samples that never reached the estimator or were out of order there.
+  /// Number of samples that did not reach the estimator or reached it out of order.
   std::uint64_t samples_lost() const;
 };
 
-/// Health, and why.
+/// The published health and its reason.
 struct ToldHealth {
   Health health;
   std::string_view reason;
 };
 
-/// What everybody is told: the estimator's own word on `estimate`, as far as what feeds it is there. It hears samples
-/// alone, so that none come it cannot tell: a pose that is not fed by odometry is degraded, and lost after a while,
-/// and one without images is degraded.
+/// Returns the health that is published: the estimator's own health, lowered when its sources fail. The estimator sees
+/// only samples and does not notice their absence. Without odometry a pose is degraded, and lost after a while; without
+/// images it is degraded.
 ToldHealth told_health(const Estimate& estimate, const DeviceStatus& odometer, const DeviceStatus& camera);
 
 /// Pose, uncertainty and health for a person: "t 12.300 s  tracking  x 1.23 y 4.56 m  heading 78.9 deg  +-0.08 m".
@@ -117,8 +120,8 @@ std::string pose_line(const Estimate& estimate);
 /// A duration for a person, in its two largest units: "8 s", "3 min 05 s", "2 h 14 min", "5 d 03 h".
 std::string duration_text(std::chrono::seconds duration);
 
-/// For how long the daemon has run, its health, what is in trouble, then pose, map and what became of the bearings: a
-/// terminal that is too narrow cuts what is needed least.
+/// One line with the time since the start, health, troubles, pose, map and counters of the bearings. The least
+/// important text comes last, because a narrow terminal cuts it off.
 std::string status_line(const Status& status, std::chrono::seconds uptime);
 
 }  // namespace azimuth

@@ -20,12 +20,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A session's start and its number among those of the same second: the order of sessions.
+/// Sorts sessions: the start of a session, and its number among the sessions of the same second.
 using SessionKey = std::pair<std::string, unsigned>;
 
 constexpr std::string_view kPattern = "dddd-dd-ddTdd-dd-ddZ";
 
-/// Nothing for a name that no session has.
+/// None: the name is not that of a session.
 std::optional<SessionKey> session_key(std::string_view name) {
   const auto fits = [](char c, char pattern) { return pattern == 'd' ? c >= '0' && c <= '9' : c == pattern; };
   const std::string_view start = name.substr(0, kPattern.size());
@@ -40,7 +40,7 @@ std::optional<SessionKey> session_key(std::string_view name) {
   return SessionKey(start, number);
 }
 
-/// Whether some process is recording into it.
+/// True: a process is recording into the file.
 bool in_use(const fs::path& file) {
   const UniqueFd fd(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   return fd && ::flock(fd.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
@@ -62,7 +62,7 @@ void Archive::scan(const std::string& own_session, const fs::path& open_segment)
   for (const auto& [key, session] : others) scan_session(session / part_, open_segment);
   const std::size_t segments_of_others = closed_.size();
   if (!own_session.empty()) scan_session(folder_ / own_session / part_, open_segment);
-  if (closed_.size() > segments_of_others) closed_.pop_back();  // bytes_ keeps counting it
+  if (closed_.size() > segments_of_others) closed_.pop_back();  // bytes_ still includes it
 }
 
 void Archive::scan_session(const fs::path& session, const fs::path& open_segment) {
@@ -70,7 +70,7 @@ void Archive::scan_session(const fs::path& session, const fs::path& open_segment
     if (segment.file == open_segment) continue;
     std::error_code error;
     const std::uintmax_t size = fs::file_size(segment.file, error);
-    if (error) continue;  // gone meanwhile
+    if (error) continue;  // the file was deleted meanwhile
     closed_.push_back({std::move(segment.file), size});
     bytes_ += size;
   }
@@ -85,9 +85,9 @@ bool Archive::delete_oldest() {
     const bool deleted = fs::remove(oldest.file, error);
     if (error) continue;
     bytes_ -= oldest.bytes;
-    if (!deleted) continue;  // somebody else did
+    if (!deleted) continue;  // another process deleted it
     const fs::path within = oldest.file.parent_path();
-    fs::remove(within, ignored);  // refused while anything is in it
+    fs::remove(within, ignored);  // fails while the folder contains anything
     if (!part_.empty()) fs::remove(within.parent_path(), ignored);
     return true;
   }

@@ -7,28 +7,28 @@
 
 namespace azimuth {
 
-/// When the events of a session happen, in microseconds since the epoch. Each is a little later than the one ahead of
-/// it, so that whoever plays the log keeps its pace, and nobody who listens is sent more at once than his queue holds
-/// (30 messages by LCM's default). What the messages themselves say of time is left alone.
+/// Assigns the times of a session's events [us since the epoch]. Consecutive events are at least kLeast_us apart. So a
+/// player of the log keeps its pace, and a receiver's queue (30 messages by LCM's default) does not overflow. The
+/// stamps inside the messages are not changed.
 ///
-/// Live, that is the moment an event is recorded, on the clock of the stamps. A recording that is played may have
-/// stamps that begin anywhere; its time begins when the session does, and goes on as its samples do, at whatever speed
-/// they are played: what is published happens when the newest sample did.
+/// Live, the time of an event is the moment of its recording, on the clock of the stamps. The stamps of a played
+/// recording may start anywhere. In that case the time starts with the session and advances with the stamps of the
+/// recording's samples, at any playing speed; an event without a sample gets the time of the newest sample.
 ///
-/// Thread contract: thread-bound; copies have the same beginning.
+/// Thread contract: thread-bound; a copy starts at the same time as its original.
 class EventTimes {
  public:
-  /// `epoch_minus_monotonic` is what stamps lead CLOCK_MONOTONIC by.
+  /// `epoch_minus_monotonic` is the offset of the stamps from CLOCK_MONOTONIC.
   static EventTimes live(Duration epoch_minus_monotonic);
-  /// `first` is the recording's first stamp; it begins now.
+  /// `first` is the first stamp of the recording, which starts now.
   static EventTimes of_recording(Stamp first);
 
-  /// Of a sample that the session takes now.
+  /// The time of a sample that the session takes now.
   std::int64_t of_sample(Stamp stamp);
-  /// Of anything else that happens now.
+  /// The time of any other event that happens now.
   std::int64_t now();
 
-  static constexpr std::int64_t kLeast_us = 500;  ///< between two events
+  static constexpr std::int64_t kLeast_us = 500;  ///< shortest time between two events
 
  private:
   EventTimes(std::optional<Duration> epoch_minus_monotonic, std::int64_t begins_us)
@@ -36,8 +36,8 @@ class EventTimes {
   std::int64_t next();
 
   std::optional<Duration> epoch_minus_monotonic_;  // none: a recording is played
-  Duration ahead_{};                               // of the recording's stamps
-  std::int64_t reached_us_, last_us_;              // by the samples or the clock; by the events
+  Duration ahead_{};                               // offset from the recording's stamps to the session's time
+  std::int64_t reached_us_, last_us_;              // latest time of samples or clock; time of the last event
 };
 
 }  // namespace azimuth

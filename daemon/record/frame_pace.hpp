@@ -3,17 +3,17 @@
 
 namespace azimuth {
 
-/// Which of a camera's images are taken when only so many a second are wanted. A camera of just that rate, whose stamps
-/// are never quite even, loses none.
+/// Selects which of a camera's images are taken when only a limited rate is wanted. A camera of just that rate loses no
+/// image, although its stamps are slightly uneven.
 ///
 /// Thread contract: thread-bound.
 class FramePace {
  public:
-  /// At most so many a second; 0: all.
+  /// Takes at most `rate_hz` images per second; 0: all.
   explicit FramePace(double rate_hz)
       : interval_(rate_hz > 0.0 ? duration_from_seconds(1.0 / rate_hz) : Duration::zero()) {}
 
-  /// Whether the image of this stamp is one of them.
+  /// True: the image with this stamp is taken.
   bool takes(Stamp stamp) {
     const bool jumped = !begun_ || stamp > next_ + interval_ || stamp < next_ - 2 * interval_;
     if (!jumped && stamp < next_ - interval_ / 2) return false;

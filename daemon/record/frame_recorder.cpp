@@ -1,15 +1,15 @@
 #include "daemon/record/frame_recorder.hpp"
 
+#include "drivers/picture/to_rgb.hpp"
 #include "drivers/storage/session.hpp"
 #include "drivers/wire/channels.hpp"
 #include "drivers/wire/image_message.hpp"
 #include "drivers/wire/messages.hpp"
-#include "picture/to_rgb.hpp"
 
 namespace azimuth {
 namespace {
 
-/// The samples have room for a whole file more when the images stop at the floor.
+/// The images stop while the disk still has room for one more file of samples above the floor.
 LogSpace space_of_frames(const RecordSettings& settings) {
   return {.folder = settings.folder,
           .part = kFramesPart,
@@ -53,7 +53,7 @@ void FrameRecorder::image(const KeptImage& image) {
   log_.write(channel_, data_, times_.of_sample(image.stamp));
 }
 
-/// No bytes: it cannot be, and is recorded as one that could not be read.
+/// A view without bytes: the image cannot be encoded, and is recorded as one that could not be read.
 ImageView FrameRecorder::compressed(const ImageView& image) {
   ImageView pixels = image;
   if (image.readable() && !is_encodable(image.format.pixels)) {

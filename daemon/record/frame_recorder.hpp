@@ -15,31 +15,31 @@
 
 namespace azimuth {
 
-/// An image on its way to the log. The camera has its own back by then: however slow the disk, it never runs out of
-/// buffers.
+/// A copy of an image on its way to the log. The camera already has its buffer back, so a slow disk never leaves the
+/// camera without buffers.
 struct KeptImage {
   Stamp stamp{};
   FrameFormat format{};
-  std::vector<std::byte> bytes = {};  ///< none: it could not be read
+  std::vector<std::byte> bytes = {};  ///< empty: the image could not be read
 };
 
-/// Records images in the session that a Recorder has begun, in segments of their own (FOLDER/SESSION/frames/000.lcm)
-/// under a quota of their own: however large, they never push a sample out of the log, and they leave the disk to the
-/// samples when it fills up. See SegmentedLog for what survives, and for disks in trouble.
+/// Records images in the session of a Recorder, in segments of their own (FOLDER/SESSION/frames/000.lcm) under a quota
+/// of their own. So images never push samples out of the log, and when the disk fills up, image segments are deleted
+/// first. SegmentedLog tells which data survive a failure, and what happens when the disk is in trouble.
 ///
-/// Thread contract: thread-bound; not for real-time threads. Nothing of ours allocates once storage has grown.
+/// Thread contract: thread-bound; not for real-time threads. This code allocates nothing once the storage has grown.
 class FrameRecorder {
  public:
   using Clock = SegmentedLog::Clock;
 
-  /// `times` begin as those of the samples.
+  /// `times` starts at the same time as the EventTimes of the Recorder.
   FrameRecorder(const RecordSettings& settings, EventTimes times);
 
-  /// The name of the session, without which every image is lost. Only the first counts.
+  /// Sets the name of the session. Before this call every image is lost. Only the first call has an effect.
   void begin(const std::string& session);
 
   void image(const KeptImage& image);
-  /// To be called several times a flush interval.
+  /// Flushes the log and makes room. To be called several times per flush interval.
   void turn(Clock::time_point now) { log_.turn(now); }
 
   const RecorderStatus& status() const { return log_.status(); }

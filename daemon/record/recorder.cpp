@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kTypicalMessage = 64 * 1024;
 
-/// On a full disk images give way to samples.
+/// When the disk is full, images are deleted before samples.
 LogSpace space_of_events(const RecordSettings& settings) {
   return {.folder = settings.folder,
           .yields_first = kFramesPart,
@@ -58,7 +58,7 @@ void Recorder::bearings(const BearingSet& set) {
   log_.write(plain ? bearings_channel_ : features_channel_, data_, times_.of_sample(set.stamp));
 }
 
-/// Samples reach the recorder as such, and again as echoes on their channels.
+/// Samples reach the recorder through odometry() and bearings(). Their echoes on the published channels are skipped.
 void Recorder::message(std::string_view channel, Bytes data) {
   const bool is_echo = channel == channel::kOdometry || channel == channel::kBearings || channel == channel::kFeatures;
   if (!on_ || is_echo) return;

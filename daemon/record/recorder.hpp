@@ -13,32 +13,34 @@
 
 namespace azimuth {
 
-/// Records what the estimator was given and what the daemon published, in LCM's log format, into segments of a session
-/// folder: FOLDER/2026-11-21T13-05-00Z/000.lcm and so on. See SegmentedLog for what survives, and for disks in trouble.
+/// Records the samples that the estimator took and the messages that the daemon published, in LCM's log format. The
+/// segments lie in a session folder: FOLDER/2026-11-21T13-05-00Z/000.lcm and so on. SegmentedLog tells which data
+/// survive a failure, and what happens when the disk is in trouble.
 ///
 /// Thread contract: thread-bound; not for real-time threads (a slow disk blocks the caller). While a segment is being
-/// written nothing allocates once storage has grown.
+/// written, nothing allocates once the storage has grown.
 class Recorder {
  public:
   using Clock = SegmentedLog::Clock;
 
-  /// Begins the first segment at once. `documents` begin every segment; a rig.toml among them makes it replayable.
+  /// Starts the first segment at once. Every segment starts with `documents`; rig.toml among them makes it replayable.
   Recorder(const RecordSettings& settings, std::vector<Document> documents,
            EventTimes times = EventTimes::of_recording(Stamp{}));
 
-  // In the order in which the estimator takes them.
+  // To be called in the order in which the estimator takes the samples.
   void odometry(const OdometryReading& reading);
   void bearings(const BearingSet& set);
 
-  /// A message published on `channel`, to which the prefix is to be added. Odometry and bearings are left out: they are
-  /// recorded as the estimator takes them.
+  /// Records a message published on `channel`, a name without the prefix. Odometry and bearings are skipped, because
+  /// they are recorded when the estimator takes them.
   void message(std::string_view channel, Bytes data);
 
-  /// Does what is due: flush, next segment, making room, another try. To be called several times a flush interval.
+  /// Does everything that is due: flush, start the next segment, make room, try again after trouble. To be called
+  /// several times per flush interval.
   void turn(Clock::time_point now);
 
   const RecorderStatus& status() const { return on_ ? log_.status() : off_; }
-  /// Name of the session's folder; empty until that is made.
+  /// Name of the session's folder; empty until the folder exists.
   const std::string& session() const { return log_.session(); }
 
  private:

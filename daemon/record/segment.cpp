@@ -19,8 +19,8 @@ FileResult<Segment> Segment::create(const fs::path& file, const SegmentMark& mar
   FileResult<EventLogWriter> log = EventLogWriter::create(file);
   if (!log) return failure(log.error());
   Segment segment(*std::move(log), file);
-  // A file system without locks is no reason not to record: the lock only keeps other recorders from making room with
-  // this very file.
+  // A failure is ignored: on a file system without locks, recording works all the same. The lock only keeps other
+  // recorders from deleting this file to make room.
   static_cast<void>(::flock(segment.log_.descriptor(), LOCK_EX | LOCK_NB));
   const std::error_code error = segment.write_documents(mark, documents, channel_prefix, utime_us);
   if (!error) return segment;

@@ -12,14 +12,14 @@
 
 namespace azimuth {
 
-/// The segment being recorded: an LCM log that began with the documents, locked against deletion by other recorders for
-/// as long as it is open.
+/// The segment being recorded: an LCM log that starts with the documents. While it is open, a lock protects it against
+/// deletion by other recorders.
 ///
 /// Thread contract: thread-bound.
 class Segment {
  public:
-  /// Makes the file, whose folder must be there, and hands the documents to the kernel. A file that could not be
-  /// completed is removed again. `channel_prefix` comes before the documents' channel, `utime_us` is their time.
+  /// Creates the file in an existing folder and writes the documents to it. A file that could not be completed is
+  /// removed. `channel_prefix` comes before the documents' channel, `utime_us` is the time of the documents.
   static FileResult<Segment> create(const std::filesystem::path& file, const SegmentMark& mark,
                                     std::span<const Document> documents, std::string_view channel_prefix,
                                     std::int64_t utime_us);
@@ -27,9 +27,9 @@ class Segment {
   EventLogWriter& log() { return log_; }
   const EventLogWriter& log() const { return log_; }
   const std::filesystem::path& file() const { return file_; }
-  /// Bytes of the documents it began with.
+  /// Size of the documents at the start [bytes].
   std::uint64_t documents_size() const { return documents_size_; }
-  /// Somebody deleted the file: what is written to it goes nowhere.
+  /// True: the file was deleted, so data written to it are lost.
   bool is_deleted() const;
 
  private:

@@ -17,12 +17,13 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr auto kDiskInterval = 1s;  // between two looks at the disk
+constexpr auto kDiskInterval = 1s;  // time between two checks of the disk
 constexpr SegmentedLog::Clock::duration kFirstPause = 1s, kLongestPause = 30s;
-constexpr double kFloorToResume = 1.05;           // times the floor, so that recording does not go on and off
+// Recording resumes at this multiple of the floor, so that it does not stop and start repeatedly.
+constexpr double kFloorToResume = 1.05;
 constexpr int kDeletionsAtOnce = 8;               // keeps a turn short
-constexpr double kSegmentsInQuota = 4.0;          // at least: or the quota would leave next to nothing of the past
-constexpr std::uint64_t kDocumentsInSegment = 4;  // a segment is at least this many times its documents
+constexpr double kSegmentsInQuota = 4.0;          // smallest number, so that deleting a segment keeps most of the past
+constexpr std::uint64_t kDocumentsInSegment = 4;  // smallest ratio of a segment's size to that of its documents
 
 std::uint64_t bytes(double megabytes) { return static_cast<std::uint64_t>(megabytes * 1e6); }
 
@@ -39,7 +40,7 @@ SegmentedLog::~SegmentedLog() {
   static_cast<void>(close_segment());
   std::error_code ignored;
   if (session_.empty()) return;
-  fs::remove(session_folder(), ignored);  // refused unless it is empty
+  fs::remove(session_folder(), ignored);  // fails unless the folder is empty
   fs::remove(space_.folder / session_, ignored);
 }
 
@@ -57,7 +58,7 @@ void SegmentedLog::write(std::string_view channel, Bytes data, std::int64_t utim
   if (over_quota(data.size())) make_room(1.0, data.size());
   ++status_.events;
   const std::error_code error = segment_->log().write(utime_us, channel, data);
-  if (error == std::errc::invalid_argument) {  // nothing the format can hold; the file is as good as before
+  if (error == std::errc::invalid_argument) {  // the format cannot hold the event; the file is unchanged
     --status_.events;
     return lose();
   }
@@ -88,7 +89,7 @@ void SegmentedLog::turn(Clock::time_point now) {
   if (segment_ && now - began_ >= clock_duration(space_.max_file_age_s)) next_segment();
 }
 
-/// What began before there was a time begins now.
+/// Starts all intervals, because the times are unknown before the first turn.
 void SegmentedLog::begin_first_turn(Clock::time_point now) {
   began_ = flushed_ = checked_ = recording_since_ = next_try_ = now;
 }
@@ -117,7 +118,7 @@ void SegmentedLog::open_segment() {
   account();
 }
 
-/// The session is named once; somebody may remove its folder while it is in use.
+/// The session is named only once. Its folder is created again if it was removed meanwhile.
 std::error_code SegmentedLog::make_session_folder() {
   std::error_code error;
   fs::create_directories(space_.folder, error);
@@ -150,12 +151,12 @@ std::error_code SegmentedLog::close_segment() {
   return error;
 }
 
-/// Takes the outcome of writing.
+/// Stops the log if writing has failed.
 void SegmentedLog::check(const std::error_code& error) {
   if (error) stop(fmt::format("{}: cannot be written: {}", status_.file, error.message()));
 }
 
-/// Brings the counters up to what the segment says.
+/// Updates the counters from the segment.
 void SegmentedLog::account() {
   const EventLogWriter& log = segment_->log();
   const std::uint64_t lost = log.lost() - std::exchange(counted_lost_, log.lost());
@@ -168,13 +169,13 @@ void SegmentedLog::account() {
 
 void SegmentedLog::stop(const std::string& reason) {
   if (segment_) {
-    static_cast<void>(segment_->log().flush());  // there may be room for what waits
+    static_cast<void>(segment_->log().flush());  // there may be room for the buffered events
     account();
     segment_.reset();
   }
   if (status_.reason.empty()) spdlog::warn("recording stopped: {}; tried again from time to time", reason);
   const Clock::time_point now = now_.value_or(Clock::time_point{});
-  // After a good while the first retry comes at once: making room may be all it takes.
+  // If the log ran well for a while, the first retry comes at once, because making room may be enough.
   const bool went_well = status_.on && now - recording_since_ > kLongestPause;
   pause_ = went_well ? 0s : std::clamp(2 * pause_, kFirstPause, kLongestPause);
   next_try_ = now + pause_;
@@ -195,8 +196,8 @@ void SegmentedLog::check_disk() {
   if (make_room(1.0) == Room::none) stop_at_floor();
 }
 
-/// Deletes old segments as long as the quota, with so many bytes more, or the floor asks for it. Only the floor can
-/// forbid to record.
+/// Deletes old segments while the quota (for `more_bytes` more) or the floor of free space requires it. Only the floor
+/// can forbid recording.
 SegmentedLog::Room SegmentedLog::make_room(double floor_factor, std::uint64_t more_bytes) {
   for (int i = 0; i < kDeletionsAtOnce; ++i) {
     const bool for_quota = over_quota(more_bytes);
@@ -207,7 +208,8 @@ SegmentedLog::Room SegmentedLog::make_room(double floor_factor, std::uint64_t mo
   return under_floor(floor_factor) ? Room::none : Room::enough;
 }
 
-/// A quota is our own affair; a full disk is not.
+/// To meet the quota, only this log's own segments are deleted. On a full disk, the segments of `yields_first` go
+/// first.
 bool SegmentedLog::delete_oldest(bool for_quota) {
   if (!for_quota && !space_.yields_first.empty()) {
     yielding_.scan(session_, {});

@@ -14,49 +14,51 @@
 
 namespace azimuth {
 
-/// How a log is. Counters count since the start.
+/// The state of a log. Counters count since the start.
 struct RecorderStatus {
-  bool on = false;                       ///< events reach a file
-  std::string reason;                    ///< why not; empty while on
+  bool on = false;                       ///< events are written to a file
+  std::string reason;                    ///< why no events are written; empty while `on`
   std::string file;                      ///< the segment being written, or the last one
-  std::uint64_t bytes = 0;               ///< recorded, in all segments
-  std::uint64_t kept_bytes = 0;          ///< on the disk, of all sessions, by the last flush
-  std::uint64_t quota_bytes = 0;         ///< for those; 0: none
-  std::uint64_t events = 0;              ///< likewise; documents are not counted
-  std::uint64_t lost_events = 0;         ///< given to the recorder, but in no file
-  std::uint64_t segments_deleted = 0;    ///< old ones, to make room
-  std::optional<std::uint64_t> free_mb;  ///< on the disk, when last asked; unknown until then
+  std::uint64_t bytes = 0;               ///< bytes recorded in all segments
+  std::uint64_t kept_bytes = 0;          ///< bytes of all sessions on the disk at the last flush
+  std::uint64_t quota_bytes = 0;         ///< limit of kept_bytes; 0: none
+  std::uint64_t events = 0;              ///< events recorded in all segments, without documents
+  std::uint64_t lost_events = 0;         ///< events given to the recorder that are in no file
+  std::uint64_t segments_deleted = 0;    ///< old segments deleted to make room
+  std::optional<std::uint64_t> free_mb;  ///< free space on the disk when last checked; none: not checked yet
 };
 
-/// Where a log is written, and how much of the disk is its own. Megabytes are 10^6 bytes.
+/// The folder of a log, and the disk space that the log may use. A megabyte is 10^6 bytes.
 struct LogSpace {
-  std::filesystem::path folder;     ///< of all sessions
-  std::filesystem::path part = {};  ///< of a session, in which the segments lie; empty: the session's folder itself
-  std::filesystem::path yields_first = {};  ///< part of every session whose segments go before ours when a disk is full
-  double max_file_mb = 0.0;                 ///< as in RecordSettings, likewise the rest
+  std::filesystem::path folder;  ///< folder of all sessions
+  /// Folder within a session that holds the segments; empty: the session's folder itself.
+  std::filesystem::path part = {};
+  /// Folder within every session whose segments are deleted before this log's own when the disk is full.
+  std::filesystem::path yields_first = {};
+  double max_file_mb = 0.0;  ///< this and the following members are as in RecordSettings
   double max_file_age_s = 0.0;
   double quota_mb = 0.0;
   double min_free_mb = 0.0;
   double flush_interval_s = 0.0;
 };
 
-/// Events in LCM's log format, in segments of a session folder (drivers/storage/session.hpp).
+/// A log of events in LCM's log format, in segments of a session folder (drivers/storage/session.hpp).
 ///
-/// What survives: everything up to the last flush is in the kernel's hands and survives the end of the process by any
-/// means. A loss of power may cost what the kernel has not written to the disk yet, usually the last half minute; only
-/// closing a segment forces it there.
+/// Data up to the last flush are with the kernel and survive any end of the process. A loss of power may cost the data
+/// that the kernel has not yet written to the disk, usually those of the last half minute; only closing a segment
+/// forces them to the disk.
 ///
-/// A disk that is full, gone or read-only stops the log, nothing else: it is logged once, events are counted as lost,
-/// and writing is tried again in a new segment, ever more seldom (up to every 30 s). The process must ignore SIGXFSZ if
-/// files may be limited in size (RLIMIT_FSIZE).
+/// A disk that is full, missing or read-only stops only the log. The trouble is logged once, and events are counted as
+/// lost. Writing is tried again in a new segment, at growing intervals (up to 30 s). The process must ignore SIGXFSZ if
+/// file sizes may be limited (RLIMIT_FSIZE).
 ///
 /// Thread contract: thread-bound; not for real-time threads (a slow disk blocks the caller). While a segment is being
-/// written nothing allocates once storage has grown.
+/// written, nothing allocates once the storage has grown.
 class SegmentedLog {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `documents` begin every segment, on the documents' channel with `channel_prefix`.
+  /// Every segment starts with `documents`, on the documents' channel with `channel_prefix`.
   SegmentedLog(LogSpace space, std::vector<Document> documents, std::string channel_prefix);
   /// Closes the segment, and removes folders of this session that stayed empty.
   ~SegmentedLog();
@@ -65,20 +67,21 @@ class SegmentedLog {
   SegmentedLog& operator=(SegmentedLog&&) = delete;
   SegmentedLog& operator=(const SegmentedLog&) = delete;
 
-  /// Begins the first segment at once. With a `session` of that name, which another log has begun, the log becomes a
-  /// part of that, else it begins one of its own. Its documents are of `utime_us`.
+  /// Starts the first segment at once. With a nonempty `session`, which another log has started, this log becomes a
+  /// part of that session; otherwise it starts a session of its own. `utime_us` is the time of the documents.
   void begin(const std::string& session, std::int64_t utime_us);
 
-  /// Before begin() every event is lost.
+  /// Writes one event. Before begin() every event is lost.
   void write(std::string_view channel, Bytes data, std::int64_t utime_us);
-  /// Counts an event that could not even be given to write().
+  /// Counts an event as lost that could not be given to write().
   void lose() { ++status_.lost_events; }
 
-  /// Does what is due: flush, next segment, making room, another try. To be called several times a flush interval.
+  /// Does everything that is due: flush, start the next segment, make room, try again after trouble. To be called
+  /// several times per flush interval.
   void turn(Clock::time_point now);
 
   const RecorderStatus& status() const { return status_; }
-  /// Name of the session's folder; empty until that is made.
+  /// Name of the session's folder; empty until the folder exists.
   const std::string& session() const { return session_; }
 
  private:
@@ -111,9 +114,10 @@ class SegmentedLog {
   std::optional<Segment> segment_;
   RecorderStatus status_;
   std::uint64_t next_segment_ = 0;
-  std::uint64_t bytes_before_ = 0, counted_lost_ = 0;  // of earlier segments; of this one, in status_ already
+  // Bytes of earlier segments; lost events of this segment that are already counted in status_.
+  std::uint64_t bytes_before_ = 0, counted_lost_ = 0;
   std::int64_t last_utime_us_ = 0;
-  std::optional<Clock::time_point> now_;  // of the last turn
+  std::optional<Clock::time_point> now_;  // time of the last turn
   Clock::time_point began_{}, flushed_{}, checked_{}, next_try_{};
   Clock::time_point recording_since_{};
   Clock::duration pause_{};

@@ -16,8 +16,8 @@
 namespace azimuth {
 namespace {
 
-/// Whether standard error is the stream that systemd connected to the journal (systemd.exec(5), JOURNAL_STREAM); the
-/// variable alone may have been inherited by a shell.
+/// True: standard error is the stream that systemd connected to the journal (systemd.exec(5), JOURNAL_STREAM). The
+/// variable alone is not sufficient, because a shell may have inherited it.
 bool logs_to_journal() {
   // NOLINTNEXTLINE(concurrency-mt-unsafe): before the first thread starts
   const char* const stream = std::getenv("JOURNAL_STREAM");
@@ -40,7 +40,8 @@ spdlog::level::level_enum level_of(LogLevel level) {
   return spdlog::level::err;
 }
 
-/// What a line says, as it may be shown: devices, robots and peers have their names in it.
+/// Prints a message with all control characters made visible, because the names of devices, robots and peers appear in
+/// it.
 class VisibleMessage : public spdlog::custom_flag_formatter {
  public:
   void format(const spdlog::details::log_msg& message, const std::tm& /*time*/, spdlog::memory_buf_t& out) override {
@@ -64,7 +65,7 @@ void set_up_logging(LogLevel level) {
   log_to_journal(to_journal);
   if (to_journal) {
     sink = std::make_shared<spdlog::sinks::systemd_sink_mt>("azimuthd");
-    sink->set_formatter(formatter_of("%*"));  // the journal keeps time and severity
+    sink->set_formatter(formatter_of("%*"));  // the journal adds time and severity
   } else {
     sink = std::make_shared<spdlog::sinks::stderr_color_sink_mt>();
     sink->set_formatter(formatter_of("%Y-%m-%d %H:%M:%S.%e %^%l%$ %*"));

@@ -3,8 +3,8 @@
 
 namespace azimuth {
 
-/// Logs to standard error; under systemd straight to the journal, which then knows each line's severity and
-/// events' fields. May be called again while no other thread logs.
+/// Logs to standard error. Under systemd it logs directly to the journal, which then gets the severity of each line and
+/// the fields of events. May be called again while no other thread logs.
 void set_up_logging(LogLevel level);
 
 }  // namespace azimuth

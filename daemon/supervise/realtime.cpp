@@ -26,7 +26,7 @@ void limit_thread_stacks() {
 }
 
 std::optional<std::string> lock_memory() {
-  // Under a finite limit the call may succeed and every later allocation fail; that is worse than not locking.
+  // Under a finite limit the call may succeed and every later allocation fail, which is worse than not locking.
   rlimit limit{};
   const bool limited = getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY && geteuid() != 0;
   if (limited) {

@@ -7,28 +7,28 @@
 
 namespace azimuth {
 
-/// Gives threads that are created from now on 1 MB of stack each, where the system's default is 8. Locked memory is
-/// populated when it is mapped, and filling a dozen default stacks with zeros took most of a restart's time.
+/// Limits the stack of every thread created from now on to 1 MB; the system's default is 8 MB. Locked memory is
+/// populated when it is mapped, and filling a dozen default stacks with zeros would take most of the time of a restart.
 void limit_thread_stacks();
 
-/// Locks the process into memory, now and for what it will allocate; thread stacks are populated as they are made.
-/// Why not; nothing when it is locked.
+/// Locks the memory of the process, present and future; thread stacks are populated when they are created. Returns why
+/// it failed; none: the memory is locked.
 std::optional<std::string> lock_memory();
 
-/// Lets go of what lock_memory() locked.
+/// Unlocks the memory that lock_memory() locked.
 void unlock_memory();
 
-/// What the system refused of the threads' scheduling, one sentence each.
+/// The scheduling requests that the system refused for the thread of `stage`, one sentence each.
 std::vector<std::string> refusals(const StageThread& stage);
 
-/// What became of a wish for real time.
+/// The result of the requests for real-time behaviour.
 struct RealTime {
-  std::string text;                   ///< in words, for the status; empty: nothing was asked for
-  std::vector<std::string> refusals;  ///< one sentence each
+  std::string text;                   ///< in words, for the status; empty: nothing was requested
+  std::vector<std::string> refusals;  ///< refused requests, one sentence each
 };
 
-/// Of the threads, each of which has begun its first turn, and of the memory lock: whether it was asked for, and what
-/// lock_memory() returned.
+/// Collects the results of the threads' scheduling and of the memory lock. Each thread must have begun its first turn.
+/// `lock_asked`: the lock was requested; `lock_refusal`: the result of lock_memory().
 RealTime real_time(const std::vector<StageThread*>& stages, bool lock_asked,
                    const std::optional<std::string>& lock_refusal);
 

@@ -24,7 +24,7 @@ ServiceManager::ServiceManager() {
   }
   address_.sun_family = AF_UNIX;
   std::memcpy(address_.sun_path, path, length);
-  if (path[0] == '@') address_.sun_path[0] = '\0';  // an abstract one, whose name is exactly so long
+  if (path[0] == '@') address_.sun_path[0] = '\0';  // an abstract address, whose name has exactly this length
   address_size_ = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + length);
   socket_ = UniqueFd(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (!socket_) note(errno);
@@ -46,7 +46,7 @@ std::optional<std::chrono::microseconds> ServiceManager::watchdog_interval() {
   return std::chrono::microseconds(interval_us);
 }
 
-/// Only the newest of these says how the daemon is.
+/// Only the newest of these states has to arrive, so it replaces an earlier one.
 void ServiceManager::send_surely(const std::string& state) {
   if (!socket_) return;
   const int error = try_to_send(state);
@@ -60,7 +60,7 @@ void ServiceManager::send(const std::string& state) {
   if (unsent_.empty()) note(try_to_send(state));
 }
 
-/// 0 or errno.
+/// Returns 0 or errno.
 int ServiceManager::try_to_send(const std::string& state) {
   const ssize_t sent = ::sendto(socket_.get(), state.data(), state.size(), MSG_NOSIGNAL | MSG_DONTWAIT,
                                 reinterpret_cast<const sockaddr*>(&address_), address_size_);

@@ -9,12 +9,12 @@
 
 namespace azimuth {
 
-/// What systemd is told through NOTIFY_SOCKET. Without one every call does nothing.
+/// Sends notifications to systemd through NOTIFY_SOCKET. Without that variable every call does nothing.
 ///
-/// No call waits: a manager that does not read misses statuses and watchdog pings, while ready(), reloading() and
-/// stopping() are tried again with the next call. (sd_notify(3) would wait.)
+/// No call blocks. (sd_notify(3) would block.) When the manager does not read, statuses and watchdog pings are lost,
+/// while ready(), reloading() and stopping() are sent again with the next call.
 ///
-/// Thread contract: thread-bound; made before the first thread starts.
+/// Thread contract: thread-bound; constructed before the first thread starts.
 class ServiceManager {
  public:
   ServiceManager();
@@ -24,9 +24,9 @@ class ServiceManager {
   void status(const std::string& status);
   void stopping();
   void alive();    ///< feeds the watchdog
-  void give_up();  ///< as if the watchdog had not been fed for too long
+  void give_up();  ///< tells the manager to act as if the watchdog had expired
 
-  /// How often the watchdog must be fed at least, if the manager has one.
+  /// Longest allowed time between two calls of alive(); none: the manager has no watchdog.
   static std::optional<std::chrono::microseconds> watchdog_interval();
 
  private:
@@ -38,7 +38,7 @@ class ServiceManager {
   UniqueFd socket_;
   sockaddr_un address_{};
   socklen_t address_size_ = 0;
-  std::string unsent_;  ///< what the manager must still be told
+  std::string unsent_;  ///< state that still has to be sent
   bool failing_ = false;
 };
 

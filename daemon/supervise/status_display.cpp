@@ -9,7 +9,7 @@
 namespace azimuth {
 namespace {
 
-/// 0: it does not say.
+/// 0: the width is unknown.
 std::size_t terminal_columns() {
   winsize size{};
   return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0U;
@@ -17,7 +17,7 @@ std::size_t terminal_columns() {
 
 bool goes_on(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U; }
 
-/// Bytes of the first `characters` of them.
+/// Number of bytes of the first `characters` characters.
 std::size_t bytes_of(const std::string& text, std::size_t characters) {
   std::size_t at = 0;
   for (; at < text.size(); ++at)
@@ -41,7 +41,7 @@ void StatusDisplay::show(const std::string& line) {
   if (!shown_) return;
   if (terminal_) {
     const std::string seen = one_line_of(line, terminal_columns());
-    std::fprintf(stderr, "\r%s\x1b[K", seen.c_str());  // and erase what the last line had more
+    std::fprintf(stderr, "\r%s\x1b[K", seen.c_str());  // and erase the rest of the previous line
     line_open_ = true;
   } else {
     std::fprintf(stderr, "%s\n", visible(line).c_str());

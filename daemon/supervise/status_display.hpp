@@ -4,27 +4,27 @@
 
 namespace azimuth {
 
-/// As much of a text as stands on one line of a terminal with so many columns: its last one stays empty, since a
-/// terminal may wrap there; what is cut ends in "...". Control characters become blanks. UTF-8 is not cut within a
-/// character, each of which is taken to be one column wide. 0 columns: the width is not known, nothing is cut.
+/// Shortens a text to one line of a terminal with `columns` columns. The last column stays empty, because a terminal
+/// may wrap there. A shortened text ends in "...". Control characters become blanks. UTF-8 characters are not split,
+/// and each counts as one column. 0 columns: the width is unknown and nothing is cut.
 std::string one_line_of(const std::string& text, std::size_t columns);
 
-/// The status line on standard error: rewritten in place on a terminal and cut to its present width, one whole line
-/// each otherwise.
+/// The status line on standard error. On a terminal it is rewritten in place and cut to the current width; otherwise
+/// every status is a line of its own.
 ///
 /// Thread contract: thread-bound.
 class StatusDisplay {
  public:
-  /// `wanted`: also where standard error is not a terminal.
+  /// `wanted`: show the status even if standard error is not a terminal.
   explicit StatusDisplay(bool wanted);
   ~StatusDisplay() { end_line(); }
   StatusDisplay(const StatusDisplay&) = delete;
   StatusDisplay& operator=(const StatusDisplay&) = delete;
 
   void show(const std::string& line);
-  /// There was a terminal when this was made, and it is gone.
+  /// True: there was a terminal at construction, and it no longer exists.
   bool terminal_is_gone() const;
-  /// Before anything else is written to the terminal.
+  /// To be called before anything else is written to the terminal.
   void end_line();
 
  private:

@@ -16,11 +16,12 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A stage that hangs is noticed within this time after its deadline.
+/// A hanging stage is noticed within this time after its deadline.
 constexpr std::chrono::microseconds kTick = 50ms;
-/// A stage that is late at so many ticks in a row is given up. A process that stood still as a whole is late at one.
+/// A stage that is late at this many consecutive ticks is given up. A process that was suspended as a whole is late at
+/// one tick only.
 constexpr int kGraceTicks = 2;
-/// Without a device there is no first pose to wait for.
+/// Ticks after which settle() runs even without a first pose, for which devices may be missing.
 constexpr std::uint64_t kSettledTicks = 100;
 
 void require(int result, const char* what) {
@@ -86,7 +87,7 @@ void Supervisor::watch_time() {
   sd_event_source* timer = nullptr;
   require(sd_event_add_time_relative(loop_.get(), &timer, CLOCK_MONOTONIC, 0, 1000, handler, this), "timer");
   require(sd_event_source_set_enabled(timer, SD_EVENT_ON), "timer");
-  require(sd_event_source_set_floating(timer, 1), "timer");  // the loop owns it
+  require(sd_event_source_set_floating(timer, 1), "timer");  // the loop owns the timer
   sd_event_source_unref(timer);
 }
 
@@ -136,7 +137,7 @@ void Supervisor::report_events() {
   }
 }
 
-/// Once per change.
+/// Logs each change once.
 void Supervisor::report_samples() {
   const SampleTrouble trouble = status_.samples.trouble;
   if (trouble == std::exchange(sample_trouble_, trouble)) return;
@@ -147,7 +148,7 @@ void Supervisor::report_samples() {
     log_event(JournalEvent::sample_trouble, "samples: " + sentence(status_.samples));
 }
 
-/// Likewise: the numbers in it change all the time.
+/// Logs each change once. The numbers in the text change all the time and are not compared.
 void Supervisor::report_pace() {
   const bool is_slow = !status_.pace.empty();
   if (is_slow == std::exchange(told_slow_, is_slow)) return;
@@ -199,7 +200,7 @@ void Supervisor::on_signal(int number) {
 void Supervisor::on_hangup() {
   spdlog::info("SIGHUP: reading the configuration anew");
   manager_.reloading();
-  // A stage that hangs would not let the pipeline stop: it is the watchdog's.
+  // A hanging stage would keep the pipeline from stopping; the watchdog handles that case.
   process_.configuration = late_ ? std::string(late_->spec().name) + " hangs, so nothing is read" : settings_.reload();
   manager_.alive();
   if (process_.configuration.empty()) {
@@ -213,8 +214,8 @@ void Supervisor::on_hangup() {
   manager_.ready("configuration refused: " + process_.configuration);
 }
 
-/// Once. By then every thread has asked for its scheduling. Locking reads the whole process into memory, and while it
-/// does no thread gets any that is new: before the first pose every device that is opened would wait for it.
+/// Runs once, when every thread has requested its scheduling. Locking reads the whole process into memory, and
+/// meanwhile no thread can allocate memory. Before the first pose this would delay the opening of every device.
 void Supervisor::settle() {
   if (std::exchange(settled_, true)) return;
   std::optional<std::string> lock_refusal;
@@ -226,7 +227,7 @@ void Supervisor::settle() {
   pipeline_.tell(process_);
 }
 
-/// Whoever asks twice means it: the second signal ends the process at once, even if a stage hangs.
+/// A second signal ends the process at once, even if a stage hangs.
 void Supervisor::take_signals_as_they_come() {
   sigset_t signals = handled_signals();
   sigdelset(&signals, SIGHUP);

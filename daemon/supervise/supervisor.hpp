@@ -12,46 +12,49 @@
 
 namespace azimuth {
 
-/// Blocks SIGTERM, SIGINT and SIGHUP, so that the event loop receives them. Before the first thread starts: threads
-/// inherit it.
+/// Blocks SIGTERM, SIGINT and SIGHUP, so that the event loop receives them. To be called before the first thread
+/// starts, because threads inherit the signal mask.
 void block_signals();
 
-/// Why a pipeline ended.
+/// The reason for the end of a pipeline, and its last state.
 struct PipelineEnd {
-  bool reload = false;      ///< to be built anew; else for good
-  bool played_out = false;  ///< a recording came to its end
-  std::uint64_t steps = 0;  ///< of the estimator
-  SampleFinding samples;    ///< what was wrong with them last
-  bool pose_known = false;  ///< the robot was where its last estimate said
+  /// True: the pipeline is to be built again; false: the daemon ends.
+  bool reload = false;
+  bool played_out = false;  ///< a recording has been played to its end
+  std::uint64_t steps = 0;  ///< number of steps of the estimator
+  SampleFinding samples;    ///< the last trouble with the samples
+  bool pose_known = false;  ///< the last estimate of the pose was correct
   bool lost = false;
 };
 
-/// Runs a pipeline from start to stop: signals, the service manager with its watchdog, refused scheduling, the status.
+/// Runs a pipeline from start to stop. It handles signals, the service manager with its watchdog, refused scheduling,
+/// and the status.
 ///
-/// The watchdog is fed only while no stage is past its deadline; a timer alone would prove only that timers work. A
-/// stage that stays late is not waited for: the service manager is asked to do at once what it would do when its time
-/// is up.
+/// The watchdog is fed only while no stage has exceeded its deadline; a timer alone would prove only that timers work.
+/// The supervisor does not wait for a stage that stays late: it asks the service manager to act at once as if the
+/// watchdog had expired.
 ///
-/// Thread contract: thread-bound, to the main thread.
+/// Thread contract: bound to the main thread.
 class Supervisor {
  public:
   struct Settings {
-    bool hold = false;         ///< keep running when the recording has ended
-    bool show_status = false;  ///< a status line each second also where there is no terminal
-    /// Keep the process in memory, from its first pose on: to read all of it takes longer than a robot should wait.
+    bool hold = false;         ///< keep running after the end of the recording
+    bool show_status = false;  ///< print a status line each second even without a terminal
+    /// Lock the memory of the process, from its first pose on. Reading all pages before that would delay the first
+    /// pose.
     bool lock_memory = false;
-    /// When the process began, for how long it has run.
+    /// When the process started; for the time since the start.
     std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
-    /// Reads the configuration anew, for SIGHUP. Returns what is wrong with it in a few words, everything having been
-    /// logged; empty: the pipeline is to be built anew.
+    /// Reads the configuration again, for SIGHUP. Returns a short text of what is wrong (all errors have been logged);
+    /// empty: the pipeline is to be built again.
     std::function<std::string()> reload = [] { return std::string("not possible"); };
   };
 
-  /// `bell` is the one the pipeline rings. Throws std::system_error when there can be no event loop.
+  /// The pipeline rings `bell`. Throws std::system_error when there can be no event loop.
   Supervisor(Pipeline& pipeline, Doorbell& bell, ServiceManager& manager, Settings settings);
 
-  /// Starts the pipeline, waits for its end or a signal, and stops it. While it stops for good a second signal ends the
-  /// process; while it stops to be built anew signals wait for the next supervisor.
+  /// Starts the pipeline, waits for its end or a signal, and stops it. During a final stop, a second signal ends the
+  /// process. During a stop for a reload, signals wait for the next supervisor.
   PipelineEnd run();
 
  private:
@@ -82,7 +85,7 @@ class Supervisor {
   EventLoop loop_{nullptr, sd_event_unref};
   std::chrono::microseconds tick_{};
   const StageThread* late_ = nullptr;
-  int late_ticks_ = 0;  // in a row
+  int late_ticks_ = 0;  // consecutive ticks with a late stage
   std::uint64_t ticks_ = 0;
   bool has_watchdog_ = false;
   bool settled_ = false;
@@ -90,7 +93,7 @@ class Supervisor {
   bool reload_ = false;
   ProcessStatus process_;
   Status status_;
-  SampleTrouble sample_trouble_ = SampleTrouble::none;  // that was reported
+  SampleTrouble sample_trouble_ = SampleTrouble::none;  // the trouble reported last
   bool told_slow_ = false;
   DeviceEvent event_;
 };

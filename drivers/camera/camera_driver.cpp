@@ -13,12 +13,12 @@ constexpr Clock::duration kFirstBackOff = 50ms, kLongestBackOff = 1s;
 constexpr Clock::duration kStillOpening = 10ms;
 constexpr Clock::duration kIdle = 1s;
 constexpr double kSilentIntervals = 4.0;
-/// A device that floods must not keep this thread from its other work.
+/// Limits the reads of one turn, so that a device that floods does not keep the thread from its other work.
 constexpr int kMostReads = 16;
-/// So often in a row must a camera answer in vain before its port is to be reset.
+/// Consecutive failed openings of a camera that is present, after which a reset of its port is requested.
 constexpr int kHungOpenings = 3;
 
-/// "0.8" for a person.
+/// A time in seconds for a person, e.g. "0.8".
 std::string seconds_text(Clock::duration time) {
   const auto tenths = std::chrono::round<std::chrono::duration<std::int64_t, std::deci>>(time).count();
   return std::to_string(tenths / 10) + '.' + std::to_string(tenths % 10);
@@ -51,7 +51,7 @@ Clock::duration CameraDriver::due_in(Clock::time_point now) const {
 }
 
 void CameraDriver::turn(Clock::time_point now) {
-  // An opening may have taken long: time counts from the next turn on.
+  // An opening may have taken long, so the time of silence counts from this turn on.
   if (std::exchange(fresh_, false)) last_image_ = now;
   if (!stream_ && back_off_.is_due(now)) return open(now);
   if (stream_) read(now);
@@ -70,7 +70,7 @@ void CameraDriver::open(Clock::time_point now) {
   accept(*std::move(opened), now);
 }
 
-/// A camera that was silent and is not there now has left, or was reset.
+/// An absent camera needs no reset, even if it was silent before: it was unplugged, or is being reset.
 void CameraDriver::judge_opening(const CameraTrouble& trouble) {
   if (is_absent(trouble.error_number)) state_.wants_port_reset.clear();
   hung_openings_ = is_hung(trouble.error_number) ? hung_openings_ + 1 : 0;
@@ -134,7 +134,8 @@ void CameraDriver::receive(Frame frame, Clock::time_point now) {
   unread_[(first_unread_ + unread_count_++) % kMaxUnread] = std::move(frame);
 }
 
-/// Only an image shows that the camera works: one that can be opened but sends nothing is opened ever less often.
+/// Only an image shows that the camera works. A camera that can be opened but sends nothing is opened at growing
+/// intervals.
 void CameraDriver::begin_running() {
   news_.enter(Connection::running, {}, state_);
   state_.wants_port_reset.clear();
@@ -149,7 +150,7 @@ Clock::duration CameraDriver::patience() const {
   return clock_duration(seconds);
 }
 
-/// Damaged images do not count: a camera that sends nothing else is of as little use as a silent one.
+/// Damaged images do not count: a camera that sends only damaged images is as useless as a silent one.
 void CameraDriver::watch_silence(Clock::time_point now) {
   if (now - last_image_ < patience()) return;
   ++state_.silences;
@@ -172,7 +173,7 @@ bool CameraDriver::take(Frame& into) {
   return true;
 }
 
-/// Again only when they differ from those of the stream before.
+/// Reports refused settings only if they differ from those of the previous stream.
 void CameraDriver::tell_refusals() {
   const std::vector<std::string>& refused = state_.description.refused;
   if (refused == told_refusals_) return;

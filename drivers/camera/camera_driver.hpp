@@ -1,5 +1,6 @@
 #pragma once
-// Whatever a camera of this process does, its images go on: opening, silence, failure and opening anew, for every kind.
+// Keeps the images of a camera of this process coming, through opening, silence, failure and reopening, for every kind
+// of camera.
 
 #include <array>
 #include <chrono>
@@ -19,70 +20,80 @@
 
 namespace azimuth {
 
-/// When a camera counts as silent, and what its images have to look like.
+/// When a camera counts as silent, and which image size it must have.
 struct CameraDriverSettings {
-  double silent_s = 0.8;       ///< without a good image for so long, and for four intervals: silent, opened anew
-  double first_image_s = 3.0;  ///< likewise before a stream's first one: sensors need time to wake up
-  int width_px = 0;            ///< a camera that gives another width is refused; 0: any
-  int height_px = 0;           ///< likewise its height
+  /// A camera without a good image for this long, and for four image intervals, counts as silent and is reopened.
+  double silent_s = 0.8;
+  /// The limit instead of `silent_s` before the first image of a stream, because sensors need time to start.
+  double first_image_s = 3.0;
+  int width_px = 0;   ///< a camera with another width is refused; 0: any width
+  int height_px = 0;  ///< a camera with another height is refused; 0: any height
 };
 
-/// What is known of a camera. All counters count from the start of the driver.
+/// The state of a camera. All counters count from the start of the driver.
 struct CameraState : DeviceState {
-  StreamDescription description;  ///< of the present stream, or of the last
-  /// The USB port, as sysfs names it, of a camera that is there but silent, or answers again and again that it cannot
-  /// be opened: only a reset of the port may help. Empty: no wish. It stands until an image comes or the camera goes,
-  /// so whoever grants it has to limit how often.
+  StreamDescription description;  ///< of the current stream, or of the last one
+  /// The USB port (its name in sysfs) of a camera that is present but silent, or that has failed to open several times,
+  /// so that only a reset of the port may help. Empty: no reset is wanted. The request stays until an image arrives or
+  /// the camera disappears, so the receiver must limit the rate of resets.
   std::string wants_port_reset;
 
-  std::uint64_t images = 0;             ///< handed on
-  std::uint64_t missing = 0;            ///< gaps in the device's sequence numbers that are not `corrupt` ones
-  std::uint64_t corrupt = 0;            ///< damaged ones, dropped
-  std::uint64_t stamps_replaced = 0;    ///< stamps of the future, or of no use for long: time of arrival instead
-  std::uint64_t stamps_dropped = 0;     ///< images with stamps that went backwards or were too old, dropped
-  std::uint64_t sequence_restarts = 0;  ///< sequence numbers that went backwards or stood still within a stream
-  std::uint64_t openings = 0;           ///< streams that have given an image; all but the first are reopenings
-  std::uint64_t silences = 0;           ///< times the camera was found silent
+  std::uint64_t images = 0;   ///< delivered images
+  std::uint64_t missing = 0;  ///< gaps in the device's sequence numbers, without the corrupt images
+  std::uint64_t corrupt = 0;  ///< damaged images, dropped
+  /// Stamps replaced by the time of arrival, because they lay in the future or were unusable for long.
+  std::uint64_t stamps_replaced = 0;
+  /// Images dropped because their stamps went backwards or were too old.
+  std::uint64_t stamps_dropped = 0;
+  /// Sequence numbers that did not increase within a stream.
+  std::uint64_t sequence_restarts = 0;
+  /// Streams that have delivered an image. All but the first are reopenings.
+  std::uint64_t openings = 0;
+  std::uint64_t silences = 0;  ///< how often the camera became silent
   std::uint64_t reopenings() const { return openings > 0 ? openings - 1 : 0; }
 };
 
-/// A camera for a thread that polls:
+/// The driver of a camera, for a thread that polls:
 ///
-///   poll descriptor() for poll_events(), for due_in() at most; turn(); take() and take_event() until they say no.
+///   poll descriptor() for poll_events(), for due_in() at most; then turn();
+///   then take() and take_event() until they return false.
 ///
-/// A camera that is unplugged, fails or falls silent ends nothing: it is opened again, by whatever stable name the
-/// opener goes by, with a back-off of at most a second, and at once after wake().
+/// When a camera is unplugged, fails or becomes silent, the driver opens it again by the stable name that the opener
+/// uses, with a back-off of at most a second, and at once after wake().
 ///
-/// Frames come with stamps that strictly ascend and sequence numbers that do so too, over reopenings as well: a new
-/// stream's numbers go on with a gap of one after the last stream's, so that followers see that images were lost; how
-/// many nobody knows. Within a stream gaps are exactly the device's own.
+/// The stamps and the sequence numbers of the delivered frames strictly increase, even across reopenings. The numbers
+/// of a new stream continue after a gap of one, which tells receivers that images were lost; the number of lost
+/// images is unknown. Within a stream the gaps are exactly those of the device.
 ///
-/// Thread contract: thread-bound; frames may die elsewhere. Blocks only while the opener does or a stream is closed.
-/// Nothing allocates while the camera runs.
+/// Thread contract: thread-bound; frames may be destroyed on any thread. Blocks only while the opener blocks or a
+/// stream is closed. Nothing allocates while the camera runs.
 class CameraDriver {
  public:
   using Clock = std::chrono::steady_clock;
   static constexpr std::size_t kMaxUnread = 4;
 
-  /// Opens nothing yet. An opener that returns neither a stream nor a trouble's text is still at work: it is asked
-  /// again soon.
+  /// Does not open the camera yet. An opener that returns neither a stream nor a text of trouble is still working, and
+  /// is called again soon.
   CameraDriver(const CameraDriverSettings& settings, StreamOpener open);
   CameraDriver(const CameraDriver&) = delete;
   CameraDriver& operator=(const CameraDriver&) = delete;
 
-  int descriptor() const;                               ///< -1: none at present. May change with every turn
-  short poll_events() const;                            ///< what to poll(2) it for
-  Clock::duration due_in(Clock::time_point now) const;  ///< until turn() is wanted without any event; never negative
+  int descriptor() const;     ///< to be polled; -1: none. It may change with every turn.
+  short poll_events() const;  ///< events for poll(2)
+  /// Time until turn() is needed without any event; never negative.
+  Clock::duration due_in(Clock::time_point now) const;
 
-  /// Opens, reads what is there and finds out about silence. `now` should be fresh: stamps are judged by it.
+  /// Opens the camera, reads the available images, and detects silence. `now` should be fresh, because stamps are
+  /// judged by it.
   void turn(Clock::time_point now);
-  /// Something was plugged in: the camera is tried at once and eagerly for a while.
+  /// To be called when a device was plugged in: the driver tries to open the camera at once, and at short intervals
+  /// for a while.
   void wake(Clock::time_point now);
 
-  /// The oldest image not taken yet; what `into` held before is released. False: none, `into` unchanged. As long as
-  /// kMaxUnread are not taken, further ones stay with the device.
+  /// Takes the oldest image, and releases the previous contents of `into`. False: there is none, `into` is unchanged.
+  /// While kMaxUnread images are not taken, further ones stay in the device.
   bool take(Frame& into);
-  /// A sentence for the log about a change, oldest first. Of repeated trouble only the first time is told.
+  /// Takes the oldest message for the log about a change. A repeated trouble is reported only the first time.
   bool take_event(std::string& event) { return news_.take(event); }
 
   const CameraState& state() const { return state_; }
@@ -104,10 +115,11 @@ class CameraDriver {
   StreamOpener open_;
   std::unique_ptr<ImageStream> stream_;
   ImageOrder order_;
-  bool fresh_ = false;              // the stream: opened in this turn
-  Clock::time_point last_image_{};  // or the opening
+  bool fresh_ = false;              // the stream was opened in this turn
+  Clock::time_point last_image_{};  // time of the last image, or of the opening
   BackOff back_off_;
-  int hung_openings_ = 0;  // in a row, of a camera that is there
+  // Consecutive failed openings of a camera that is present.
+  int hung_openings_ = 0;
 
   std::array<Frame, kMaxUnread> unread_;
   std::size_t first_unread_ = 0, unread_count_ = 0;

@@ -19,7 +19,7 @@ using camera_link::Packet;
 namespace {
 
 constexpr std::size_t kPage = 4096;
-/// More than an honest client sends between two turns; a mad one must not keep the server from its work.
+/// More messages than a correct client sends between two turns. It limits the work that a faulty client can cause.
 constexpr int kMaxAnswersPerTurn = 2 * static_cast<int>(FramePool::kMaxSlots);
 
 std::uint32_t whole_pages(std::size_t bytes) {
@@ -64,7 +64,7 @@ CameraServer::CameraServer(std::filesystem::path path, const Hello& hello, Frame
 CameraServer::CameraServer(CameraServer&&) noexcept = default;
 
 CameraServer::~CameraServer() {
-  // Another server may have taken the path over, or this object's content may have moved away.
+  // Another server may have taken over the path, or this object may have been moved from.
   if (listener_ && inode_of(path_) == socket_file_) ::unlink(path_.c_str());
 }
 
@@ -97,7 +97,7 @@ void CameraServer::accept_client() {
   }
   encode(hello_, message_);
   if (camera_link::send_packet(client.get(), message_, memory_.descriptor()) != 0 || !watch(client.get())) return;
-  // Until this one is gone, the next one's knocking must not wake the event loop.
+  // While this client is connected, connection attempts of others must not wake the event loop.
   ::epoll_ctl(events_.get(), EPOLL_CTL_DEL, listener_.get(), nullptr);
   client_ = std::move(client);
   ++counts_.clients;
@@ -124,7 +124,7 @@ void CameraServer::take_back(std::span<const std::byte> message) {
   Slot* const slot = release ? &slots_[release->slot] : nullptr;
   if (slot && slot->leased && slot->sequence == release->sequence) {
     slot->leased = false;
-  } else {  // it has lost count, and so its leases cannot be told any more
+  } else {  // the client's bookkeeping is wrong, so its leases are unknown
     ++counts_.malformed;
     drop_client();
   }

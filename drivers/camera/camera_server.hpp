@@ -16,29 +16,29 @@
 
 namespace azimuth {
 
-/// What became of everything a server had to send.
+/// The counters of a camera server.
 struct CameraServerCounts {
-  std::uint64_t clients = 0;         ///< that were greeted
-  std::uint64_t strangers = 0;       ///< of other users, hung up on
-  std::uint64_t frames = 0;          ///< handed over
-  std::uint64_t frames_skipped = 0;  ///< no client, no free slot, or its inbox was full
+  std::uint64_t clients = 0;         ///< clients that were greeted
+  std::uint64_t strangers = 0;       ///< clients of untrusted users, disconnected
+  std::uint64_t frames = 0;          ///< frames sent
+  std::uint64_t frames_skipped = 0;  ///< frames skipped: no client, no free slot, or the client's inbox was full
   std::uint64_t sets = 0;
   std::uint64_t sets_skipped = 0;
-  std::uint64_t malformed = 0;  ///< messages of clients that mean nothing; each ends its connection
+  std::uint64_t malformed = 0;  ///< invalid messages from clients; each ends its connection
 };
 
-/// The end of the camera link that has images or bearings: hands them to one process of this machine at a time (see
-/// SharedCamera), whose user is this one, root or of the socket's group. Further ones wait until it is gone. A client
-/// that is slow or dead costs itself samples and nobody anything else.
+/// The sending end of the camera link. It hands images or bearings to one process of this machine at a time (see
+/// SharedCamera). The client's user must be the server's user, root, or a member of the socket's group. Further clients
+/// wait until the current one has gone. A slow or dead client loses samples, and disturbs nobody else.
 ///
-/// Thread contract: thread-bound. Nothing here blocks, and after the first samples nothing allocates.
+/// Thread contract: thread-bound. Nothing blocks, and nothing allocates after the first samples.
 class CameraServer {
  public:
-  /// Makes a socket at `path`; a stale one is replaced. Frames have `format`; for mjpeg, `max_jpeg_bytes` bounds them.
-  /// No slots: a server of bearings only, `format` is not used.
+  /// Creates a socket at `path`, and replaces a stale one. Frames have `format`; `max_jpeg_bytes` limits their size for
+  /// mjpeg. Without slots the server sends only bearings and does not use `format`.
   struct Offer {
     FrameFormat format{};
-    unsigned slots = 4;  ///< at most FramePool::kMaxSlots; each is a whole frame
+    unsigned slots = 4;  ///< at most FramePool::kMaxSlots; each holds a whole frame
     std::size_t max_jpeg_bytes = 0;
   };
   static FileResult<CameraServer> listen(const std::filesystem::path& path, const Offer& offer);
@@ -51,23 +51,23 @@ class CameraServer {
   /// Removes the socket from the file system.
   ~CameraServer();
 
-  /// For an event loop: readable when turn() has something to do. Stays the same.
+  /// For an event loop: readable when turn() has something to do. The descriptor never changes.
   int descriptor() const { return events_.get(); }
-  /// Greets a client, takes slots back. To be called before sending, too.
+  /// Greets a client and takes slots back. To be called before each sending as well.
   void turn();
   bool has_client() const { return static_cast<bool>(client_); }
 
-  /// A free slot for the next frame; empty when there is nobody to see it or no slot is free: that frame is skipped.
-  /// Either way it has used up a sequence number. A slot not sent is simply given again.
+  /// A free slot for the next frame. Empty: there is no client or no free slot, and the frame is skipped. A skipped
+  /// frame consumes a sequence number too. A slot that was not sent is returned again by the next call.
   std::span<std::byte> next_frame();
-  /// Uses up a sequence number for a frame that nobody will make; the slot last given stays valid.
+  /// Consumes a sequence number for a frame that is not made. The slot from the last next_frame() stays valid.
   void skip_frame();
-  /// Hands over the slot that next_frame() gave, the first `bytes` of it for mjpeg. `stamp` is on CLOCK_MONOTONIC.
-  /// False: nobody gets it, since it gave none, or there are none or more bytes than one holds, or nobody listens.
+  /// Sends the slot from next_frame(); for mjpeg only its first `bytes` bytes. `stamp` is on CLOCK_MONOTONIC. False:
+  /// not sent, because next_frame() returned no slot, `bytes` is zero or too large, or there is no client.
   bool send_frame(Stamp stamp);
   bool send_jpeg(Stamp stamp, std::size_t bytes);
 
-  /// Sends a set with the stamp (on CLOCK_MONOTONIC) and the sequence that it has. False: skipped.
+  /// Sends a bearing set with its stamp (on CLOCK_MONOTONIC) and sequence number. False: skipped.
   bool send(const BearingSet& set);
 
   const CameraServerCounts& counts() const { return counts_; }
@@ -97,7 +97,7 @@ class CameraServer {
   ino_t socket_file_ = 0;
   std::array<Slot, FramePool::kMaxSlots> slots_{};
   unsigned next_slot_ = kNoSlot;
-  std::uint64_t next_sequence_ = 0;  // of the frame in that slot
+  std::uint64_t next_sequence_ = 0;  // sequence number of the frame in next_slot_
   std::uint64_t sequence_ = 0;
   std::vector<std::byte> message_;
   CameraServerCounts counts_;

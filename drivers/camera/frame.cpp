@@ -6,15 +6,16 @@ namespace azimuth {
 
 void FramePool::give_back(unsigned slot) noexcept {
   assert(slot < kMaxSlots);
-  // Release: the lease's last look at the pixels comes before the driver's next use of them.
+  // Release order: the holder's last read of the pixels precedes the driver's next use of them.
   const std::uint32_t before = returned_.fetch_or(1U << slot, std::memory_order_acq_rel);
-  if (before != 0 || !bell_) return;  // it rings already
+  if (before != 0 || !bell_) return;  // the bell already rings
   const std::uint64_t one = 1;
   [[maybe_unused]] const auto written = ::write(bell_.get(), &one, sizeof one);
 }
 
 std::uint32_t FramePool::take_returned() noexcept {
-  // Silenced before the slots are taken: one that comes back in between rings again. Without a bell the read fails.
+  // The bell is cleared before the slots are taken, so a slot that comes back in between rings it again. Without a bell
+  // the read fails, which does no harm.
   std::uint64_t rings = 0;
   [[maybe_unused]] const auto taken = ::read(bell_.get(), &rings, sizeof rings);
   return returned_.exchange(0, std::memory_order_acq_rel);

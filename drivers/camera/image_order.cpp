@@ -18,9 +18,9 @@ ImageOrder::Verdict ImageOrder::judge(std::uint64_t sequence, Stamp stamp, Clock
   return verdict;
 }
 
-/// Dropped images too are counted and numbered: a follower sees a gap where they were.
+/// Dropped images are numbered as well, so that receivers see a gap in their place.
 void ImageOrder::judge_sequence(std::uint64_t sequence, Verdict& verdict) {
-  std::uint64_t step = any_ ? 2 : 0;  // of a new stream
+  std::uint64_t step = any_ ? 2 : 0;  // 2 leaves a gap at the beginning of a new stream
   if (device_sequence_) {
     verdict.restarted = sequence <= *device_sequence_;
     step = verdict.restarted ? 1 : sequence - *device_sequence_;

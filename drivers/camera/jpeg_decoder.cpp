@@ -10,11 +10,11 @@ namespace {
 
 using libjpeg::Errors;
 
-// Baseline files have a handful of scans; thousands of them are an attack on the reader's time.
+// Baseline files have a handful of scans. A file with thousands of scans is an attack on the decoder's time.
 constexpr int kMostScans = 500;
 
-// What cameras were seen to put before a marker (Logitech: up to 9 bytes), in place of nothing. Data that was lost or
-// damaged leaves as little over only by chance.
+// Largest number of superfluous bytes before a marker that counts as a camera's padding (Logitech cameras insert up to
+// 9). Lost or damaged data rarely leave so few bytes.
 constexpr int kMostPadding = 16;
 
 }  // namespace
@@ -24,7 +24,7 @@ struct JpegDecoder::Library {
   jpeg_decompress_struct jpeg{};
   jpeg_progress_mgr progress{};
   bool is_in_pixels = false;  ///< past the headers
-  bool has_ended = false;     ///< in no marker but with the bytes
+  bool has_ended = false;     ///< the data have ended without an end marker
 
   static Library& of(j_common_ptr common) { return *static_cast<Library*>(common->client_data); }
 
@@ -45,7 +45,7 @@ struct JpegDecoder::Library {
   Library& operator=(const Library&) = delete;
   ~Library() { jpeg_destroy_decompress(&jpeg); }
 
-  /// False: there is no memory for it.
+  /// False: out of memory.
   bool create() {
     if (setjmp(errors.refused) != 0) return false;  // NOLINT(cert-err52-cpp): as libjpeg wants it
     jpeg_create_decompress(&jpeg);
@@ -54,19 +54,19 @@ struct JpegDecoder::Library {
     return true;
   }
 
-  /// Whether the warning that libjpeg has just given means that pixels are missing, and made up from there on: they
-  /// would become landmarks.
+  /// True: the last warning of libjpeg means that pixels are missing and have been invented. Invented pixels could
+  /// become landmarks.
   bool is_loss() {
     switch (errors.base.msg_code) {
-      case JWRN_EXTRANEOUS_DATA:  // padding, garbage between headers; or what damaged data has left over
+      case JWRN_EXTRANEOUS_DATA:  // padding, garbage between headers, or remains of damaged data
         return is_in_pixels && (has_ended || errors.base.msg_parm.i[0] > kMostPadding);
-      case JWRN_JPEG_EOF:  // after the last pixel it is the end marker alone that is missing
+      case JWRN_JPEG_EOF:  // after the last pixel, only the end marker is missing
         has_ended = true;
         return !is_in_pixels || has_further_scans();
       case JWRN_JFIF_MAJOR:
       case JWRN_ADOBE_XFORM:
       case JWRN_BOGUS_ICC:
-      case JWRN_NOT_SEQUENTIAL:  // values that mean nothing to a baseline file
+      case JWRN_NOT_SEQUENTIAL:  // values without meaning in a baseline file
         return false;
       default:
         return true;
@@ -74,7 +74,7 @@ struct JpegDecoder::Library {
   }
   bool has_further_scans() const { return jpeg.progressive_mode != 0 || jpeg.comps_in_scan != jpeg.num_components; }
 
-  /// Up to the first pixel; false: there is none.
+  /// Reads up to the first pixel. False: there is none.
   bool begin(const unsigned char* bytes, std::size_t size) {
     if (setjmp(errors.refused) != 0) return false;  // NOLINT(cert-err52-cpp): as libjpeg wants it
     jpeg_abort_decompress(&jpeg);
@@ -84,7 +84,7 @@ struct JpegDecoder::Library {
     return true;
   }
 
-  /// All rows, after begin(); false: some are missing.
+  /// Reads all rows, after begin(). False: some are missing.
   bool decode(J_COLOR_SPACE order, unsigned char* rows, std::size_t stride_bytes) {
     if (setjmp(errors.refused) != 0) return false;  // NOLINT(cert-err52-cpp): as libjpeg wants it
     is_in_pixels = true;
@@ -106,7 +106,7 @@ const unsigned char* chars(std::span<const std::byte> bytes) {
   return reinterpret_cast<const unsigned char*>(bytes.data());
 }
 
-/// Without the start markers that some cameras send before the one that libjpeg takes.
+/// Skips start markers that some cameras send before the one that libjpeg expects.
 std::span<const std::byte> with_one_start(std::span<const std::byte> jpeg) {
   const auto is_start = [&jpeg](std::size_t at) {
     return jpeg[at] == std::byte{0xFF} && jpeg[at + 1] == std::byte{0xD8};
@@ -128,7 +128,8 @@ bool JpegDecoder::refuse(const char* why) {
   return false;
 }
 
-/// A library that met an error within a header could take the next image for the rest of it, so it is not used again.
+/// After an error inside a header, libjpeg could take the next image for the rest of that header. So the library object
+/// is replaced.
 bool JpegDecoder::refuse_damaged() {
   refuse(library_->errors.message.data());
   library_.reset(new Library);

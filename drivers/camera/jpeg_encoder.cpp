@@ -19,7 +19,7 @@ struct JpegEncoder::Library {
   Library& operator=(const Library&) = delete;
   ~Library() { jpeg_destroy_compress(&jpeg); }
 
-  /// False: there is no memory for it.
+  /// False: out of memory.
   bool create() {
     if (setjmp(errors.refused) != 0) return false;  // NOLINT(cert-err52-cpp): as libjpeg wants it
     jpeg_create_compress(&jpeg);
@@ -49,14 +49,14 @@ struct JpegEncoder::Library {
     jpeg.comp_info[0].h_samp_factor = jpeg.comp_info[0].v_samp_factor = 1;  // colours at full resolution
   }
 
-  /// How many bytes it took; 0: they do not suffice.
+  /// Returns the size of the file; 0: the buffer is too small.
   std::size_t encode(const ImageView& image, J_COLOR_SPACE order, int quality) {
     if (setjmp(errors.refused) != 0) return 0;  // NOLINT(cert-err52-cpp): as libjpeg wants it
     jpeg_abort_compress(&jpeg);
     describe(image.format, order, quality);
     jpeg_start_compress(&jpeg, TRUE);
     while (jpeg.next_scanline < jpeg.image_height) {
-      JSAMPROW row = const_cast<JSAMPROW>(image.row(static_cast<int>(jpeg.next_scanline)));  // which is only read
+      JSAMPROW row = const_cast<JSAMPROW>(image.row(static_cast<int>(jpeg.next_scanline)));  // libjpeg only reads it
       jpeg_write_scanlines(&jpeg, &row, 1);
     }
     jpeg_finish_compress(&jpeg);
@@ -66,10 +66,10 @@ struct JpegEncoder::Library {
 
 namespace {
 
-/// What a file of this size can come to at the worst, headers included.
+/// Upper bound for the size of a file with this format, headers included.
 std::size_t largest_file(const FrameFormat& format) {
   const auto blocks = [](int side_px) { return (static_cast<std::size_t>(side_px) + 7) & ~std::size_t{7}; };
-  const std::size_t samples = format.pixels == PixelFormat::gray8 ? 2 : 6;  // twice as much as it holds
+  const std::size_t samples = format.pixels == PixelFormat::gray8 ? 2 : 6;  // twice the number of samples
   return blocks(format.width_px) * blocks(format.height_px) * samples + 2048;
 }
 

@@ -35,7 +35,7 @@ class Writer {
   std::vector<std::byte>& out_;
 };
 
-/// Reads past the end give zero and are remembered.
+/// Reads past the end return zero and are recorded.
 class MessageReader {
  public:
   explicit MessageReader(Bytes message) : rest_(message) {}
@@ -64,7 +64,7 @@ class MessageReader {
   bool too_short_ = false;
 };
 
-/// -1 for what no side of an image can be, so that is_valid() refuses it.
+/// Returns -1 for a value that is too large for the side of an image, so that is_valid() refuses it.
 int get_small(MessageReader& reader) {
   const std::uint32_t value = reader.get32();
   return value <= 0xFFFFFF ? static_cast<int>(value) : -1;

@@ -1,15 +1,15 @@
 #pragma once
-// What a camera server and its client say to each other, on bytes: one message a packet, little-endian.
+// The messages between a camera server and its client, as bytes: one message per packet, little-endian.
 //
-// - hello, by the server, once: kind, "AZCM", layout, pixels, width, height, stride, slot_bytes, slots; with the
-//   memory's descriptor if there are slots
-// - frame, by the server: kind, slot, sequence, stamp_us, bytes
-// - bearings, by the server: kind, count, sequence, stamp_us, then count times azimuth, elevation, identity,
+// - hello, from the server, once: kind, "AZCM", layout, pixels, width, height, stride, slot_bytes, slots; with the
+//   descriptor of the memory if there are slots
+// - frame, from the server: kind, slot, sequence, stamp_us, bytes
+// - bearings, from the server: kind, count, sequence, stamp_us, then count times azimuth, elevation, identity,
 //   sigma, radius, sigma of the elevation, kind
-// - release, by the client: kind, slot, sequence
+// - release, from the client: kind, slot, sequence
 //
-// The decoding functions take bytes from anywhere and refuse what is not exactly such a message with values that can be
-// true. They never throw; nothing but `into` of decode_bearings() allocates.
+// The decoding functions accept bytes from any origin. They refuse everything that is not exactly such a message with
+// plausible values. They never throw, and only `into` of decode_bearings() allocates.
 //
 // Thread contract: reentrant.
 
@@ -24,15 +24,15 @@
 
 namespace azimuth::camera_link {
 
-inline constexpr std::uint32_t kLayout = 3;  ///< of these messages; changes when any of them does
+inline constexpr std::uint32_t kLayout = 3;  ///< version of these messages; changes when any of them does
 inline constexpr std::size_t kMaxBearings = 1024;
 inline constexpr std::size_t kMaxSlotBytes = std::size_t{256} << 20U;
-inline constexpr std::size_t kMaxMemory = std::size_t{1} << 30U;  ///< of all slots
+inline constexpr std::size_t kMaxMemory = std::size_t{1} << 30U;  ///< largest size of all slots together [bytes]
 inline constexpr std::size_t kMaxMessageBytes = 24 + 52 * kMaxBearings;
 
 enum class MessageKind : std::uint32_t { hello = 1, frame = 2, bearings = 3, release = 4 };
 
-/// How the server lays out its frames. Slot i begins at i * slot_bytes of the shared memory.
+/// The layout of the server's frames. Slot i starts at i * slot_bytes of the shared memory.
 struct Hello {
   FrameFormat format{};          ///< all zero when there are no slots
   std::uint32_t slot_bytes = 0;  ///< at least format.bytes()
@@ -43,34 +43,34 @@ struct Hello {
 };
 bool is_valid(const Hello& hello);
 
-/// A slot has been filled; it is the client's until released.
+/// Tells that a slot has been filled. The slot belongs to the client until the client releases it.
 struct FrameMessage {
   std::uint32_t slot = 0;
   std::uint64_t sequence = 0;
   Stamp stamp{};
-  std::uint32_t bytes = 0;  ///< of the image; fewer than the slot's for mjpeg
+  std::uint32_t bytes = 0;  ///< size of the image; less than the slot for mjpeg
   friend bool operator==(const FrameMessage&, const FrameMessage&) = default;
 };
 
-/// The sequence tells a late release of an old frame from one of the frame now in the slot.
+/// Releases a slot. The sequence number distinguishes a late release of an old frame from one of the current frame.
 struct Release {
   std::uint32_t slot = 0;
   std::uint64_t sequence = 0;
   friend bool operator==(const Release&, const Release&) = default;
 };
 
-// Each replaces the content of `out`, whose storage is meant to be used again.
+// Each function replaces the contents of `out`, whose storage can be reused.
 void encode(const Hello& hello, std::vector<std::byte>& out);
 void encode(const FrameMessage& frame, std::vector<std::byte>& out);
-void encode(const BearingSet& set, std::vector<std::byte>& out);  ///< at most kMaxBearings
+void encode(const BearingSet& set, std::vector<std::byte>& out);  ///< at most kMaxBearings bearings
 void encode(const Release& release, std::vector<std::byte>& out);
 
 std::optional<MessageKind> kind_of(Bytes message);
 std::optional<Hello> decode_hello(Bytes message);
-/// `hello` is the valid one that opened the connection.
+/// `hello` is the valid message that opened the connection.
 std::optional<FrameMessage> decode_frame(Bytes message, const Hello& hello);
 std::optional<Release> decode_release(Bytes message);
-/// On false, `into` is of no use but its storage.
+/// On false, the contents of `into` are undefined.
 bool decode_bearings(Bytes message, BearingSet& into);
 
 }  // namespace azimuth::camera_link

@@ -35,7 +35,7 @@ UniqueFd make_socket(int& error) {
 
 const sockaddr* generic(const sockaddr_un& address) { return reinterpret_cast<const sockaddr*>(&address); }
 
-/// Removes what a server that was killed left behind, but neither other files nor a socket in use.
+/// Removes the socket of a server that was killed, but no other files and no socket in use.
 void remove_stale(const std::filesystem::path& path) {
   struct stat status {};
   if (::lstat(path.c_str(), &status) != 0 || !S_ISSOCK(status.st_mode)) return;
@@ -67,24 +67,24 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
 }
 
-/// That of its folder, if we are in it: a camera of another user serves the daemon whose folder it is. Back comes what
-/// the umask took away.
+/// Gives the socket to the group of its folder if this process is a member of it, so that a camera of another user can
+/// serve the daemon that owns the folder. Restores the permissions that the umask removed.
 bool give_to_group(const std::filesystem::path& path) {
   struct stat folder {};
   if (::stat(folder_of(path).c_str(), &folder) == 0) {
     const int refused = ::lchown(path.c_str(), static_cast<uid_t>(-1), folder.st_gid);
-    static_cast<void>(refused);  // then it is for our own
+    static_cast<void>(refused);  // on failure the socket is only for this process's own group
   }
   return ::chmod(path.c_str(), kUserAndGroup) == 0;
 }
 
-/// Room for the control messages of two descriptors, so that a second one is seen and closed.
+/// Room for the control messages of two descriptors, so that a second one is noticed and closed.
 union Control {
   cmsghdr alignment;
   char bytes[CMSG_SPACE(2 * sizeof(int))];
 };
 
-/// Takes over every descriptor that came along; false when there was more than one, or what did not fit was cut off.
+/// Takes all received descriptors. False: there was more than one, or the control data were truncated.
 bool take_descriptors(msghdr& header, UniqueFd& into) {
   bool one_at_most = (static_cast<unsigned>(header.msg_flags) & static_cast<unsigned>(MSG_CTRUNC)) == 0;
   for (cmsghdr* item = CMSG_FIRSTHDR(&header); item != nullptr; item = CMSG_NXTHDR(&header, item)) {
@@ -113,7 +113,7 @@ UniqueFd listen_at(const std::filesystem::path& path, int& error) {
   UniqueFd fd = make_socket(error);
   if (!fd) return {};
   remove_stale(path);
-  // Before it has a name, so that nobody else gets in meanwhile.
+  // The permissions are set before the socket gets its name, so that no other user can connect in between.
   const bool is_bound =
       ::fchmod(fd.get(), kUserAndGroup) == 0 && ::bind(fd.get(), generic(*address), sizeof *address) == 0;
   if (is_bound && give_to_group(path) && ::listen(fd.get(), kBacklog) == 0) return fd;
@@ -190,7 +190,7 @@ Packet receive_packet(int socket, std::span<std::byte> room) {
   packet.whole = take_descriptors(header, packet.descriptor);
   if (static_cast<unsigned>(header.msg_flags) & static_cast<unsigned>(MSG_TRUNC)) packet.whole = false;
   packet.bytes = static_cast<std::size_t>(received);
-  // An empty packet looks like the end; nobody who means well sends one.
+  // An empty packet looks like the end; a correct peer sends none.
   packet.outcome = received == 0 ? Packet::Outcome::end : Packet::Outcome::packet;
   return packet;
 }

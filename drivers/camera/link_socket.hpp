@@ -1,6 +1,6 @@
 #pragma once
-// Packets over a unix socket, with at most one descriptor beside them. Internal to drivers/camera.
-// Nothing here blocks or raises a signal; errors are errno values.
+// Packets over a Unix socket, each with at most one descriptor. Internal to drivers/camera. Nothing blocks or raises a
+// signal; errors are errno values.
 
 #include <cstddef>
 #include <filesystem>
@@ -12,30 +12,31 @@
 
 namespace azimuth::camera_link {
 
-/// A socket bound to `path` that listens, for its user and the group of its folder. A socket file that nobody listens
-/// at any more is replaced; 0 in `error` on success, EADDRINUSE when somebody does.
+/// Makes a listening socket at `path`, for its user and the group of its folder. Replaces a socket file on which no
+/// process listens any more. `error` is 0 on success, and EADDRINUSE when another process listens.
 UniqueFd listen_at(const std::filesystem::path& path, int& error);
 
-/// A connected socket, or nothing and why.
+/// A connected socket; empty on failure, with the cause in `error`.
 UniqueFd connect_to(const std::filesystem::path& path, int& error);
 
-/// Whether who connected to a socket of listen_at() may: this user, root, and the members of the socket's group.
+/// True: the client connected to a socket of listen_at() is allowed: this user, root, or a member of the socket's
+/// group.
 bool is_trusted_client(int socket, const std::filesystem::path& path);
 
-/// Whether who listens at `path`, to which `socket` is connected, may be whom it names: this user or root, and anybody
-/// where not everybody could have put the socket. Else `uid` is whose it is.
+/// True: the server at `path`, to which `socket` is connected, can be trusted. It runs as this user or root, or not
+/// everybody could have created the socket. On false, `uid` is the server's user.
 bool is_trusted_server(int socket, const std::filesystem::path& path, uid_t& uid);
 
-/// 0 when the packet is on its way (`descriptor` with it unless negative), else errno; EAGAIN: the receiver is slow.
+/// 0: the packet was sent (with `descriptor` unless that is negative). Otherwise errno; EAGAIN: the receiver is slow.
 int send_packet(int socket, Bytes packet, int descriptor = -1);
 
 struct Packet {
   enum class Outcome { packet, nothing_yet, end };
   Outcome outcome = Outcome::end;
   std::size_t bytes = 0;
-  bool whole = false;   ///< false: it was longer than the room, or carried more descriptors than one
-  UniqueFd descriptor;  ///< that came along
-  int error = 0;        ///< of the end; 0: the other side closed
+  bool whole = false;   ///< false: the packet exceeded the buffer, or carried more than one descriptor
+  UniqueFd descriptor;  ///< the descriptor received with the packet
+  int error = 0;        ///< cause of the end; 0: the other side closed
 };
 Packet receive_packet(int socket, std::span<std::byte> room);
 

@@ -10,16 +10,17 @@ namespace azimuth {
 
 namespace {
 
-constexpr std::size_t kSignature = 8, kChunkFrame = 12;  // length, type and sum
+constexpr std::size_t kSignature = 8, kChunkFrame = 12;  // length, type and checksum
 
-/// Texts, profiles and the like unpack to any size, and libpng unpacks them all. Pixels need none of them.
+/// True: the pixels need this chunk. Texts, profiles and similar chunks can unpack to any size, and libpng unpacks all
+/// of them.
 bool is_needed(std::string_view type) {
   constexpr std::array<std::string_view, 6> kOfPixels{"tRNS", "gAMA", "cHRM", "sRGB", "sBIT", "bKGD"};
   const bool is_critical = type[0] >= 'A' && type[0] <= 'Z';
   return is_critical || std::ranges::find(kOfPixels, type) != kOfPixels.end();
 }
 
-/// The bytes of the chunk that `rest` begins with; what is cut short is one of all that is there.
+/// Size of the chunk at the beginning of `rest`; a truncated chunk extends to the end.
 std::size_t chunk_size(std::span<const std::byte> rest) {
   std::uint64_t length = 0;
   for (std::size_t i = 0; i < 4 && i < rest.size(); ++i)
@@ -27,7 +28,7 @@ std::size_t chunk_size(std::span<const std::byte> rest) {
   return static_cast<std::size_t>(std::min<std::uint64_t>(length + kChunkFrame, rest.size()));
 }
 
-/// An image without the chunks that its pixels do not need: as it is, or in `kept`.
+/// The image without the chunks that its pixels do not need: `png` itself, or a copy in `kept`.
 std::span<const std::byte> only_pixels(std::span<const std::byte> png, std::vector<std::byte>& kept) {
   if (png.size() < kSignature) return png;
   kept.assign(png.begin(), png.begin() + kSignature);
@@ -41,7 +42,7 @@ std::span<const std::byte> only_pixels(std::span<const std::byte> png, std::vect
   return kept.size() == png.size() ? png : kept;
 }
 
-/// libpng's view of one image; what it allocated goes with it.
+/// libpng's view of one image. It frees what libpng allocated for the image.
 class PngReader {
  public:
   PngReader() { image_.version = PNG_IMAGE_VERSION; }
@@ -56,7 +57,7 @@ class PngReader {
     return true;
   }
 
-  /// In the order and number of samples that `format` says, after read_header().
+  /// Reads the pixels in the order and number of samples of `format`. To be called after read_header().
   bool read_pixels(png_uint_32 format, std::span<std::byte> out) {
     constexpr png_color kBlack{0, 0, 0};
     image_.format = format;
@@ -79,7 +80,7 @@ class PngReader {
   png_image image_{};
 };
 
-/// Nothing, and why, when the image is not to be read.
+/// None when the image cannot be read, with the reason in `problem`.
 std::optional<PngHeader> begin(PngReader& reader, std::span<const std::byte> png, std::string& problem) {
   problem.clear();
   if (png.empty())
@@ -91,7 +92,7 @@ std::optional<PngHeader> begin(PngReader& reader, std::span<const std::byte> png
   return problem.empty() ? std::optional(reader.header()) : std::nullopt;
 }
 
-/// libpng's own brightness is not that of JPEG.
+/// True: the brightness must be computed here, because libpng's brightness differs from that of JPEG.
 bool becomes_brightness(const PngHeader& header, PixelFormat wanted) {
   return header.coloured && wanted == PixelFormat::gray8;
 }
@@ -109,7 +110,7 @@ std::optional<png_uint_32> libpng_format(PixelFormat pixels) {
   }
 }
 
-/// In place, from red, green and blue, in 1/256.
+/// Replaces red, green and blue by the brightness, in place. The weights are in units of 1/256.
 void keep_brightness(std::span<std::byte> pixels) {
   constexpr int kRed = 77, kGreen = 150, kBlue = 29;
   const auto value = [&pixels](std::size_t at) { return std::to_integer<int>(pixels[at]); };

@@ -1,5 +1,5 @@
 #pragma once
-// PNG images to pixels and back, on bytes: what run folders of other programs keep.
+// PNG images to pixels and back, in memory: the format in run folders of other programs.
 
 #include <cstddef>
 #include <optional>
@@ -11,42 +11,42 @@
 
 namespace azimuth {
 
-/// What a PNG image says of itself before any pixel.
+/// The properties in the header of a PNG image.
 struct PngHeader {
   int width_px = 0;
   int height_px = 0;
-  bool coloured = false;  ///< false: brightness only
+  bool coloured = false;  ///< false: grey only
   friend bool operator==(const PngHeader&, const PngHeader&) = default;
 
-  /// Without loss of what is there, but for samples of 16 bits: rgb8, or gray8 for an image of brightness only.
+  /// The format that holds the image without loss (except for 16-bit samples): rgb8, or gray8 for a grey image.
   PixelFormat natural_format() const { return coloured ? PixelFormat::rgb8 : PixelFormat::gray8; }
 };
 
-/// Larger images are refused, as of JPEG.
+/// Larger images are refused, as for JPEG.
 inline constexpr int kMaxPngPixels = 1 << 25;
 
-/// Whether PNG has these pixels without loss: gray8, rgb8 and bgr8.
+/// True: PNG can hold these pixels without loss: gray8, rgb8 and bgr8.
 bool png_holds(PixelFormat pixels);
-/// An image of such pixels, compressed quickly rather than well; empty when libpng refuses it. Thread contract:
-/// reentrant.
+/// Encodes an image of such pixels, with fast rather than strong compression; empty when libpng refuses it. Thread
+/// contract: reentrant.
 std::vector<std::byte> encode_png(const ImageView& image);
 
-/// Decodes PNG images, one after the other: any depth, palettes and interlaced ones too. Samples of 8 bits and less
-/// come as they are; of 16 bits the upper half; what is transparent lies on black. Any bytes are safe; an image that
-/// is cut short or damaged is refused as a whole. Bytes after its pixels do no harm. Same bytes, same pixels.
+/// Decodes PNG images of any depth, including palettes and interlaced images, one after the other. Samples of up to 8
+/// bits are kept; of 16-bit samples the upper half is used; transparent pixels are put on black. Any input is safe. A
+/// truncated or damaged image is refused as a whole. Bytes after the pixels are ignored. The same bytes always give the
+/// same pixels.
 ///
-/// Thread contract: thread-bound. Storage is kept from image to image; libpng's own working memory comes and goes with
-/// each.
+/// Thread contract: thread-bound. Storage is kept between images; libpng allocates working memory for each image.
 class PngDecoder {
  public:
-  /// Nothing when there is no header, a side is beyond kMaxFrameSide_px, or the image is larger than kMaxPngPixels.
+  /// None when there is no header, a side exceeds kMaxFrameSide_px, or the image exceeds kMaxPngPixels.
   std::optional<PngHeader> read_header(std::span<const std::byte> png);
 
-  /// The image as gray8, rgb8 or bgr8, rows without padding; valid until the next call. A grey image makes grey
-  /// colours, and of a coloured one gray8 takes the brightness, as of JPEG. No bytes: refused.
+  /// The image as gray8, rgb8 or bgr8, with rows without padding; valid until the next call. A grey image gives grey
+  /// colours; gray8 takes the brightness of a coloured image, as for JPEG. Without bytes: refused.
   ImageView decode(std::span<const std::byte> png, PixelFormat pixels);
 
-  /// Why the last call refused, in a few words.
+  /// Why the last call refused the image, in a few words.
   const std::string& problem() const { return problem_; }
 
  private:

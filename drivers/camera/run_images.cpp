@@ -9,7 +9,7 @@ ImageView RunImages::refuse(std::size_t index, const std::string& why) {
   return {};
 }
 
-/// No bytes: refused.
+/// Without bytes: refused.
 ImageView RunImages::read(std::size_t index) {
   problem_.clear();
   const ImageView image = reader_.read(run_.frames.at(index));
@@ -36,7 +36,7 @@ ImageView RunImages::pixels(std::size_t index, PixelFormat decoded) {
   return pixels.bytes.empty() ? refuse(index, jpeg_.problem()) : pixels;
 }
 
-/// To the format that loses nothing, when none is asked for.
+/// Without a requested format, decodes to the format without loss.
 ImageView RunImages::decode_png(std::size_t index, std::span<const std::byte> png, std::optional<PixelFormat> decoded) {
   const std::optional<PngHeader> header = png_.read_header(png);
   const ImageView pixels = header ? png_.decode(png, decoded.value_or(header->natural_format())) : ImageView{};

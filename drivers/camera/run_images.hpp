@@ -14,25 +14,25 @@
 
 namespace azimuth {
 
-/// Reads the frames of a run, each when it is asked for, so that a run needs the memory of one image.
+/// Reads the frames of a run one at a time, so that a run needs the memory of only one image.
 ///
-/// A view is valid until the next call. One without bytes: the frame cannot be read, and problem() says why.
-/// Thread contract: thread-bound. Storage is kept from image to image.
+/// A view is valid until the next call. A view without bytes means that the frame cannot be read, and problem() tells
+/// why. Thread contract: thread-bound. Storage is kept between images.
 class RunImages {
  public:
-  /// Borrows the run, which must not change meanwhile.
+  /// Borrows the run, which must not change.
   explicit RunImages(const Run& run) : run_(run), reader_(run.folder) {}
 
   std::size_t count() const { return run_.frames.size(); }
 
-  /// The frame as it was recorded; of a JPEG image only the header has been looked at. PNG, which neither messages nor
-  /// cameras have, comes as pixels, without loss.
+  /// The frame as it was recorded. Of a JPEG image only the header is read. A PNG image is returned as pixels, without
+  /// loss, because neither messages nor cameras use PNG.
   ImageView recorded(std::size_t index);
 
-  /// The frame as perception reads it: compressed ones are decoded to `decoded`, gray8, rgb8 or bgr8.
+  /// The frame as perception reads it: compressed frames are decoded to `decoded`, which is gray8, rgb8 or bgr8.
   ImageView pixels(std::size_t index, PixelFormat decoded);
 
-  /// Of the last call: file and reason; empty when it succeeded.
+  /// The file and the cause of the last failure; empty when the last call succeeded.
   const std::string& problem() const { return problem_; }
 
  private:

@@ -17,7 +17,7 @@ using camera_link::Packet;
 namespace {
 
 constexpr std::chrono::milliseconds kFirstWait{50}, kLongestWait{1000};
-/// A server that floods must not keep this thread from its other work.
+/// Limits the packets of one turn, so that a server that floods does not keep the thread from its other work.
 constexpr int kMaxPacketsPerTurn = 64;
 
 std::string because(std::string_view what, int error) {
@@ -91,7 +91,7 @@ void SharedCamera::disconnect(Clock::time_point now, std::string_view why) {
   state_.connected = false;
   state_.waiting_since.reset();
   state_.error = why;
-  // Leases may keep the bell of these frames alive, and with it its place among the events.
+  // Leases may keep these frames and their bell alive, so the bell is removed from the events.
   if (frames_) ::epoll_ctl(events_.get(), EPOLL_CTL_DEL, frames_->descriptor(), nullptr);
   frames_.reset();
   socket_ = UniqueFd{};
@@ -99,13 +99,13 @@ void SharedCamera::disconnect(Clock::time_point now, std::string_view why) {
   back_off_.failed(now);
 }
 
-/// What a full socket refuses is tried again in the next turn.
+/// A release that the full socket refuses is sent again in the next turn.
 void SharedCamera::return_leases() {
   if (frames_) unreturned_ |= frames_->take_returned() & leased_;
   for (std::uint32_t slot = 0; slot < FramePool::kMaxSlots && unreturned_ != 0; ++slot) {
     if ((unreturned_ >> slot & 1U) == 0) continue;
     encode(camera_link::Release{.slot = slot, .sequence = lease_sequence_[slot]}, sent_);
-    if (camera_link::send_packet(socket_.get(), sent_) != 0) return;  // if the server is gone, receive() will say so
+    if (camera_link::send_packet(socket_.get(), sent_) != 0) return;  // if the server is gone, receive() will notice
     leased_ &= ~(1U << slot);
     unreturned_ &= ~(1U << slot);
   }

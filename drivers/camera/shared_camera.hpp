@@ -1,6 +1,6 @@
 #pragma once
-// Both ends of the camera link between processes of one machine: CameraServer (camera_server.hpp) hands out,
-// SharedCamera takes. Frames travel in shared memory, bearing sets as messages.
+// The receiving end of the camera link between processes of one machine; CameraServer (camera_server.hpp) is the
+// sending end. Frames travel in shared memory, bearing sets as messages.
 
 #include <array>
 #include <chrono>
@@ -24,29 +24,30 @@
 namespace azimuth {
 
 struct SharedCameraState {
-  bool connected = false;  ///< and greeted
-  /// Connected since then, but not greeted: the server looks after one at a time. None: otherwise.
+  bool connected = false;  ///< connected and greeted
+  /// The time of a connection that has not been greeted yet, because the server serves one client at a time. None:
+  /// otherwise.
   std::optional<std::chrono::steady_clock::time_point> waiting_since;
-  FrameFormat format{};               ///< of the frames to come; width 0: bearings only
-  std::uint64_t connections = 0;      ///< greeted so far
-  std::uint64_t frames = 0;           ///< received
-  std::uint64_t frames_missing = 0;   ///< gaps in their sequence numbers
-  std::uint64_t frames_replaced = 0;  ///< received but not taken in time
+  FrameFormat format{};               ///< format of the frames; width 0: bearings only
+  std::uint64_t connections = 0;      ///< connections that were greeted
+  std::uint64_t frames = 0;           ///< frames received
+  std::uint64_t frames_missing = 0;   ///< gaps in the frames' sequence numbers
+  std::uint64_t frames_replaced = 0;  ///< frames received but not taken in time
   std::uint64_t sets = 0;
   std::uint64_t sets_missing = 0;
   std::uint64_t sets_replaced = 0;
-  std::uint64_t malformed = 0;  ///< messages that were not what they should be
-  std::string error;            ///< why there is no connection; empty when there is one
+  std::uint64_t malformed = 0;  ///< invalid messages
+  std::string error;            ///< why there is no connection; empty while connected
 };
 
-/// A camera in another process, found at a unix socket: a simulated one, or a front end of its own. Connects by itself,
-/// again and again, and survives whatever happens to, or is sent by, the other side. Unread samples are kept up to
-/// kMaxSets sets and kMaxFrames frames, of which the oldest go first.
+/// A camera in another process, reached through a Unix socket: a simulated camera, or a separate front end. It connects
+/// by itself, repeatedly, and survives any behaviour of the other side. It keeps up to kMaxSets unread sets and
+/// kMaxFrames unread frames, and drops the oldest first.
 ///
-/// Stamps are on CLOCK_MONOTONIC. Sequence numbers start anew with each server.
+/// Stamps are on CLOCK_MONOTONIC. Sequence numbers start again with each server.
 ///
-/// Thread contract: thread-bound; frames may die elsewhere. Nothing here blocks, and while connected nothing allocates
-/// once every set has seen its greatest size.
+/// Thread contract: thread-bound; frames may be destroyed on any thread. Nothing blocks. While connected, nothing
+/// allocates once every set has reached its largest size.
 class SharedCamera {
  public:
   using Clock = std::chrono::steady_clock;
@@ -58,27 +59,28 @@ class SharedCamera {
   SharedCamera(const SharedCamera&) = delete;
   SharedCamera& operator=(const SharedCamera&) = delete;
 
-  /// For an event loop: readable when turn() has something to do. Stays the same for the life of this object.
+  /// For an event loop: readable when turn() has something to do. The descriptor never changes.
   int descriptor() const { return events_.get(); }
-  /// Connects when it is time to, returns leases, receives.
+  /// Connects when it is time to, returns leases, and receives messages.
   void turn(Clock::time_point now);
-  /// When turn() should be called even if nothing is readable; never, while there is a connection.
+  /// When turn() is needed even if nothing is readable; never while connected.
   Clock::time_point next_turn() const { return socket_ ? Clock::time_point::max() : back_off_.due(); }
 
-  /// The oldest unread one; leaves the storage of `into` behind. False: none, `into` unchanged.
+  /// Takes the oldest unread set, and keeps the storage of `into`. False: there is none, `into` is unchanged.
   bool take(BearingSet& into);
-  /// The oldest unread one; what `into` held before is released. False: none, `into` unchanged.
+  /// Takes the oldest unread frame, and releases the previous contents of `into`. False: there is none, `into` is
+  /// unchanged.
   bool take(Frame& into);
 
   const SharedCameraState& state() const { return state_; }
 
  private:
-  /// A short queue in fixed places.
+  /// A short queue of fixed capacity.
   template <class T, std::size_t Places>
   struct Unread {
     std::array<T, Places> items{};
     std::size_t first = 0, count = 0;
-    /// The place after the newest, at the cost of the oldest when all are used; then `replaced` is counted up.
+    /// The place after the newest element. When the queue is full, the oldest is dropped and `replaced` is incremented.
     T& claim(std::uint64_t& replaced);
     bool pop(T& into);
   };
@@ -102,8 +104,8 @@ class SharedCamera {
   UniqueFd events_, socket_;
   camera_link::Hello hello_;
   std::shared_ptr<camera_link::MappedFrames> frames_;  // null: not greeted, or bearings only
-  std::uint32_t leased_ = 0;                           // slots that are ours, one bit each
-  std::uint32_t unreturned_ = 0;                       // of them, those to be given back
+  std::uint32_t leased_ = 0;                           // slots held by this client, one bit each
+  std::uint32_t unreturned_ = 0;                       // leased slots to be given back
   std::array<std::uint64_t, FramePool::kMaxSlots> lease_sequence_{};
   Gaps frame_gaps_, set_gaps_;
   Unread<BearingSet, kMaxSets> unread_sets_;

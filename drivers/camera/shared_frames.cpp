@@ -32,7 +32,7 @@ FrameMemory FrameMemory::create(std::size_t bytes, int& error) {
     return {};
   }
   memory.bytes_ = {static_cast<std::byte*>(start), bytes};
-  // The mapping just made stays writable, all later ones are not.
+  // The mapping made above stays writable; later mappings are not.
   if (::fcntl(memory.fd_.get(), F_ADD_SEALS, kFixedSize | F_SEAL_FUTURE_WRITE | F_SEAL_SEAL) != 0) {
     error = errno;
     return {};

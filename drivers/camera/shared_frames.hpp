@@ -1,6 +1,5 @@
 #pragma once
-// The memory that frames are handed over in: a memfd of fixed size that only the server can write. Internal to
-// drivers/camera.
+// The shared memory for frames: a memfd of fixed size that only the server can write to. Internal to drivers/camera.
 
 #include <cstddef>
 #include <memory>
@@ -12,7 +11,7 @@
 
 namespace azimuth::camera_link {
 
-/// The server's side: writable, and sealed so that clients can neither resize the memory nor write to it.
+/// The server's side: writable, and sealed so that clients can neither resize nor write to the memory.
 class FrameMemory {
  public:
   FrameMemory() = default;
@@ -23,7 +22,7 @@ class FrameMemory {
   FrameMemory& operator=(const FrameMemory&) = delete;
   ~FrameMemory();
 
-  /// All of it is allocated at once, so that no later write can fail. 0 in `error` on success.
+  /// All memory is allocated at once, so that no later write can fail. `error` is 0 on success.
   static FrameMemory create(std::size_t bytes, int& error);
 
   int descriptor() const { return fd_.get(); }
@@ -37,11 +36,12 @@ class FrameMemory {
 /// The client's side: a read-only view that leases keep alive.
 class MappedFrames : public FramePool {
  public:
-  /// Refuses (nullptr and EPROTO in `error`) memory that is not of the size said or that could shrink under a reader.
+  /// Refuses memory of another size than announced, or that could shrink during reading: nullptr, with EPROTO in
+  /// `error`.
   static std::shared_ptr<MappedFrames> open(const UniqueFd& memory, const Hello& hello, int& error);
   ~MappedFrames() override;
 
-  /// The first `bytes` of a slot; both in bounds.
+  /// The first `bytes` bytes of a slot. Both arguments must be in bounds.
   std::span<const std::byte> slot(std::uint32_t index, std::uint32_t bytes) const {
     return bytes_.subspan(std::size_t{index} * slot_bytes_, bytes);
   }

@@ -41,7 +41,7 @@ void CanBus::follow_controller(std::uint8_t details) {
   if ((details & (CAN_ERR_CRTL_RX_PASSIVE | CAN_ERR_CRTL_TX_PASSIVE)) != 0) state_ = CanBusState::passive;
 }
 
-/// Not every driver tells of the restart.
+/// Traffic shows a restart, because not every driver reports it.
 void CanBus::note_traffic() {
   if (state_ == CanBusState::off) state_ = CanBusState::active;
 }

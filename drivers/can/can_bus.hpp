@@ -5,35 +5,37 @@
 
 namespace azimuth {
 
-/// How a CAN controller takes part in the bus, by its error counters.
+/// The state of a CAN controller according to its error counters.
 enum class CanBusState {
   active,
   warning,  ///< many errors
-  passive,  ///< so many that it no longer signals those of others
-  off       ///< it takes no part until it is started again
+  passive,  ///< so many errors that the controller no longer signals the errors of other nodes
+  off       ///< the controller does not take part in the bus until it is restarted
 };
 
-/// The word a user reads, e.g. "error-passive".
+/// The word shown to users, e.g. "error-passive".
 const char* text(CanBusState state);
 
-/// What the controller's error frames tell.
+/// The state of the bus as derived from the controller's error frames.
 ///
 /// Thread contract: thread-bound; never allocates.
 class CanBus {
  public:
-  /// An error frame; others are ignored.
+  /// Takes an error frame; other frames are ignored.
   void add(const CanFrame& frame);
-  /// The interface was opened anew.
+  /// To be called when the interface has been opened again.
   void note_opened() { state_ = CanBusState::active; }
-  /// A frame came through.
+  /// To be called when a frame has been received.
   void note_traffic();
 
   CanBusState state() const { return state_; }
   std::uint64_t error_frames() const { return error_frames_; }
   std::uint64_t bus_offs() const { return bus_offs_; }
-  std::uint64_t restarts() const { return restarts_; }  ///< of the controller, after bus-off
-  std::uint64_t overruns() const { return overruns_; }  ///< the controller's own buffer was full: frames are lost
-  std::uint64_t unacknowledged() const { return unacknowledged_; }  ///< frames of this machine that nobody heard
+  std::uint64_t restarts() const { return restarts_; }  ///< restarts of the controller after bus-off
+  /// How often frames were lost because the controller's own buffer was full.
+  std::uint64_t overruns() const { return overruns_; }
+  /// Frames of this machine that no node acknowledged.
+  std::uint64_t unacknowledged() const { return unacknowledged_; }
 
  private:
   void follow_controller(std::uint8_t details);

@@ -10,14 +10,14 @@
 namespace azimuth {
 namespace {
 
-constexpr double kFasterThanPossible = 1.5;  // times the robot's limits: then a step is not believed
-constexpr double kLeast_s = 0.01;            // frames that waited somewhere come in a burst
-constexpr double kInsane = 1e9;              // metres, m/s or radians
+constexpr double kFasterThanPossible = 1.5;  // multiple of the robot's limits beyond which a step is not believed
+constexpr double kLeast_s = 0.01;            // shortest assumed time, because delayed frames arrive in a burst
+constexpr double kInsane = 1e9;              // magnitude of an implausible float, in metres, m/s or radians
 constexpr double kRounding_units = 2.0;
-constexpr double kNearZero = 0.03;       // metres
-constexpr double kCycleLearning = 0.05;  // per value
+constexpr double kNearZero = 0.03;       // a value below this many metres counts as zero
+constexpr double kCycleLearning = 0.05;  // relative change per value
 constexpr double kGap_cycles = 2.5;
-constexpr double kMayAccelerate_m_s2 = 0.5;  // deviation
+constexpr double kMayAccelerate_m_s2 = 0.5;  // standard deviation of the acceleration
 
 }  // namespace
 
@@ -29,7 +29,8 @@ double CanChannel::range() const {
 double CanChannel::step(const CanValue& newer, const CanValue& older) const {
   const double by_bits = motion_.unit * difference(motion_.signal, newer, older);
   if (quantity_ != CanQuantity::heading) return by_bits;
-  // Of a base that wraps its heading at a turn the first is right, of one whose counter wraps elsewhere the second.
+  // The first value is right for a base that wraps its heading at a turn, the second for one whose counter wraps
+  // elsewhere.
   const double by_turn_rad = wrap(std::remainder(motion_.unit * (newer.value - older.value), 2.0 * kPi));
   const double by_bits_rad = std::remainder(by_bits, 2.0 * kPi);
   return std::abs(by_bits_rad) < std::abs(by_turn_rad) ? by_bits_rad : by_turn_rad;
@@ -41,7 +42,7 @@ bool CanChannel::is_possible(double step, double elapsed_s) const {
   return std::abs(step) <= kFasterThanPossible * motion_.fastest_per_s * std::max(elapsed_s, kLeast_s) + rounded;
 }
 
-/// After a silence in which the way could have been more than the counter shows, or the base was switched off and on.
+/// True: after a silence, the counter may have wrapped unnoticed, or the base was switched off and on.
 bool CanChannel::has_begun_anew(const CanValue& value, double elapsed_s) const {
   if (quantity_ != CanQuantity::way || elapsed_s <= stale_s_) return false;
   if (motion_.fastest_per_s * elapsed_s > 0.5 * range()) return true;
@@ -93,7 +94,7 @@ CanChannel::Taken CanChannel::doubt(const CanValue& value, time_point at) {
 
 void CanChannel::begin(const CanValue& value, time_point at) {
   forget();
-  // A base's coordinates are turned by its heading, so that has to be the base's own.
+  // The base's coordinates depend on its heading, so the heading must start with the base's own value.
   newest_ = Point{value, at, quantity_ == CanQuantity::heading ? motion_.unit * value.value : 0.0};
 }
 
@@ -113,7 +114,7 @@ void CanChannel::forget() {
   sigma_ = 0.0;
 }
 
-/// Learns the time between values as their median, which frames that are lost or come in bursts do not move far.
+/// Learns the time between values as their median, which lost frames and bursts hardly change.
 void CanChannel::follow_cycle(double elapsed_s, double from, double to) {
   if (elapsed_s <= 0.0) return;
   if (cycle_s_ == 0.0) cycle_s_ = elapsed_s;
@@ -124,8 +125,8 @@ void CanChannel::follow_cycle(double elapsed_s, double from, double to) {
   cycle_s_ *= elapsed_s > cycle_s_ ? 1.0 + kCycleLearning : 1.0 - kCycleLearning;
 }
 
-/// A counter tells of all the way. Of a speed only its ends are known: between them the robot may have gone on at
-/// either, and accelerated.
+/// The uncertainty of a gap. A counter shows the whole motion. For a speed only the values at both ends are known: in
+/// between the robot may have kept either speed, or accelerated.
 double CanChannel::gap_sigma(double elapsed_s, double from, double to) const {
   if (quantity_ != CanQuantity::speed) return 0.0;
   const double sigma_m = 0.5 * std::abs(to - from) * elapsed_s + 0.25 * kMayAccelerate_m_s2 * elapsed_s * elapsed_s;

@@ -7,17 +7,18 @@
 
 namespace azimuth {
 
-/// What a channel's signal measures.
+/// The quantity that a channel's signal measures.
 enum class CanQuantity {
-  way,      ///< a counter or a coordinate, modulo its bits
-  heading,  ///< modulo a turn, or modulo its bits, or both
+  /// A counter or a coordinate, modulo the signal's bits.
+  way,
+  heading,  ///< modulo a turn, modulo the signal's bits, or both
   speed
 };
 
-/// One quantity of a base as a function of time, even: counters and headings are unwrapped, speeds integrated.
+/// One quantity of a base as a continuous function of time: counters and headings are unwrapped, speeds are integrated.
 ///
-/// A value that is farther off than the robot can have moved is not believed until the next one agrees with it: then
-/// the base has begun to count anew.
+/// A value that is farther away than the robot can have moved is ignored until the next value agrees with it. Then the
+/// base has restarted its counting.
 ///
 /// Thread contract: thread-bound; never allocates.
 class CanChannel {
@@ -28,35 +29,38 @@ class CanChannel {
 
   const CanSignal& signal() const { return motion_.signal; }
 
-  /// Whether it can be calculated with: a float may be anything.
+  /// True: the value can be used for computation. A float may hold anything.
   bool is_sane(const CanValue& value) const;
 
   enum class Taken { used, doubted, restarted };
-  /// `at` never decreases. After `restarted` nothing of the way before is comparable; begin() is to follow.
+  /// Adds a value; `at` never decreases. After `restarted`, the quantity is no longer comparable with earlier values,
+  /// and begin() must follow.
   Taken add(const CanValue& value, time_point at);
-  /// Forgets all but this value.
+  /// Forgets everything except this value.
   void begin(const CanValue& value, time_point at);
   void forget();
 
-  /// The newest value, and the quantity that it stands for.
+  /// The newest value, and the quantity it corresponds to.
   struct Memory {
     CanValue value;
     time_point at{};
     double quantity = 0.0;
   };
   std::optional<Memory> memory() const;
-  /// Instead of begin(): of another process's channel, which has heard nothing since.
+  /// Replaces begin(): continues the channel of another process, without any value since.
   void restore(const Memory& memory);
 
-  /// The instant of the newest value.
+  /// The time of the newest value.
   std::optional<time_point> newest_at() const;
-  /// The quantity then, between values on a straight line; nothing when it was not measured yet, or too long ago.
+  /// The quantity at `instant`, linearly interpolated between values; none when it is not measured yet, or too old.
   std::optional<double> at(time_point instant) const;
 
-  /// What is uncertain of the way since the last call, beyond noise (standard deviation).
+  /// Standard deviation of the quantity's change since the last call, in addition to the usual noise.
   double take_sigma();
-  std::uint64_t missed() const { return missed_; }    ///< values that did not come in time, by those that did
-  std::uint64_t doubted() const { return doubted_; }  ///< values that could not be true
+  /// Number of values that did not arrive in time, estimated from the times of the values that did.
+  std::uint64_t missed() const { return missed_; }
+  /// Number of implausible values, which were ignored.
+  std::uint64_t doubted() const { return doubted_; }
 
  private:
   using Point = Memory;
@@ -73,8 +77,8 @@ class CanChannel {
   CanQuantity quantity_;
   double stale_s_;
   std::optional<Point> newest_, before_, doubtful_;
-  bool restored_ = false;  // and no value came since
-  double cycle_s_ = 0.0;   // between values, the median
+  bool restored_ = false;  // no value has arrived since restore()
+  double cycle_s_ = 0.0;   // median time between values
   double sigma_ = 0.0;
   std::uint64_t missed_ = 0, doubted_ = 0;
 };

@@ -13,8 +13,8 @@ using namespace std::chrono_literals;
 using Clock = CanDriver::Clock;
 
 constexpr Clock::duration kFirstBackOff = 20ms, kLongestBackOff = 200ms;
-constexpr Clock::duration kLook = 200ms;  // whether the interface still is the same
-constexpr Clock::duration kBusNews = 1s;  // the least between two
+constexpr Clock::duration kLook = 200ms;  // interval of the checks that the interface is still the same
+constexpr Clock::duration kBusNews = 1s;  // shortest time between two messages
 constexpr Clock::duration kIdle = 1s;
 constexpr std::string_view kOdometer = "can ";
 
@@ -89,7 +89,7 @@ void CanDriver::receive(const CanReception& reception, Clock::time_point now) {
   const CanFrame& frame = reception.frame;
   if (frame.kind == CanFrame::Kind::error) {
     bus_.add(frame);
-    return follow_bus(now);  // at once: the frame after it may already show the bus well again
+    return follow_bus(now);  // at once, because the next frame may already show the bus working again
   }
   if (frame.kind != CanFrame::Kind::data || !is_wanted(frame.id)) {
     ++state_.foreign;
@@ -120,16 +120,14 @@ void CanDriver::read_robot(const CanFrame& frame) {
   read_flag(layout_.charging, frame, state_.charging);
 }
 
-void CanDriver::read_flag(const std::optional<CanFlagSignal>& flag, const CanFrame& frame, bool& is_set) {
+void CanDriver::read_flag(const std::optional<CanSignal>& flag, const CanFrame& frame, bool& is_set) {
   if (!flag) return;
-  const CanDecoded decoded = decode(flag->signal, frame);
+  const CanDecoded decoded = decode(*flag, frame);
   if (decoded.found == CanFound::too_short || decoded.found == CanFound::not_finite) ++malformed_robot_;
-  if (decoded.found != CanFound::value) return;
-  const std::uint64_t bits = decoded.value.raw & flag->mask;
-  is_set = flag->value ? bits == *flag->value : bits != 0;
+  if (decoded.found == CanFound::value) is_set = decoded.value.value != 0.0;
 }
 
-/// Error frames may come by the thousand; the log gets at most one line a second.
+/// Error frames may arrive by the thousand, so the log gets at most one line per second.
 void CanDriver::follow_bus(Clock::time_point now) {
   state_.bus = bus_.state();
   if (state_.bus == told_bus_ || (now < bus_told_at_ + kBusNews && state_.bus != CanBusState::off)) return;

@@ -22,49 +22,52 @@ namespace azimuth {
 
 /// Odometry of a base on a CAN bus, for a thread that polls:
 ///
-///   poll descriptor() for POLLIN, for due_in() at most; turn(); take() and take_event() until they say no.
+///   poll descriptor() for POLLIN, for due_in() at most; then turn();
+///   then take() and take_event() until they return false.
 ///
-/// Listens only. An interface that is unplugged, down or bus-off, and a base that is silent, end nothing: the interface
-/// is opened again by its name, ever at most 200 ms after it came, and odometry goes on; that of counters from where
-/// they are. Bringing a controller back from bus-off is the kernel's business (ip link set can0 type can restart-ms
-/// 100).
+/// The driver only listens. When the interface is unplugged, down or bus-off, or the base is silent, the driver opens
+/// the interface again by its name, at most 200 ms after its return, and odometry continues. Odometry from counters
+/// continues at the counters' values. The kernel brings a controller back from bus-off (ip link set can0 type can
+/// restart-ms 100).
 ///
-/// A turn's work is bounded: frames that come faster wait in the kernel, or are dropped there and counted.
+/// The work of a turn is limited: frames that arrive faster wait in the kernel, or are dropped there and counted.
 ///
-/// Thread contract: thread-bound; nothing blocks. Nothing allocates while odometry comes.
+/// Thread contract: thread-bound; nothing blocks. Nothing allocates while odometry arrives.
 class CanDriver {
  public:
   using Clock = DeviceClock;
 
-  /// Stamps are CLOCK_MONOTONIC plus `epoch_minus_monotonic`. Opens nothing yet.
+  /// The stamps are CLOCK_MONOTONIC plus `epoch_minus_monotonic`. Does not open the interface yet.
   CanDriver(const CanSettings& settings, const CanLayout& layout, Duration epoch_minus_monotonic,
             CanLinkOpener open_link = CanSocket::open);
 
-  int descriptor() const { return link_ ? link_->descriptor() : -1; }  ///< -1: none. May change with every turn
+  /// The descriptor to poll; -1: none. It may change with every turn.
+  int descriptor() const { return link_ ? link_->descriptor() : -1; }
   short poll_events() const;
-  Clock::duration due_in(Clock::time_point now) const;  ///< until turn() is wanted without any event; never negative
+  /// Time until turn() is needed without any event; never negative.
+  Clock::duration due_in(Clock::time_point now) const;
 
-  /// Reads and lets time pass, without blocking.
+  /// Reads frames and checks timeouts, without blocking.
   void turn(Clock::time_point now);
 
-  /// The oldest reading not taken yet.
+  /// Takes the oldest reading.
   bool take(OdometryReading& reading) { return readings_.pop(reading); }
-  /// A sentence for the log about a change, oldest first. Of repeated trouble only the first time is told.
+  /// Takes the oldest message for the log about a change. A repeated trouble is reported only the first time.
   bool take_event(std::string& event) { return news_.take(event); }
 
-  /// As the Pioneer's driver.
+  /// Writes the state that the next process needs to continue the odometry. False: there is none.
   bool remember(OdometerMemory& out) const;
   void restore(const OdometerMemory& memory);
 
   const CanState& state() const { return state_; }
-  void close();  ///< for good
+  void close();  ///< closes the interface for good
 
  private:
   void open(Clock::time_point now);
   void read(Clock::time_point now);
   void receive(const CanReception& reception, Clock::time_point now);
   void read_robot(const CanFrame& frame);
-  void read_flag(const std::optional<CanFlagSignal>& flag, const CanFrame& frame, bool& is_set);
+  void read_flag(const std::optional<CanSignal>& flag, const CanFrame& frame, bool& is_set);
   bool is_wanted(const CanId& id) const;
   void follow_bus(Clock::time_point now);
   void watch(Clock::time_point now);
@@ -80,13 +83,14 @@ class CanDriver {
   CanOdometer odometer_;
   CanLinkOpener open_link_;
   std::unique_ptr<CanLink> link_;
-  CanLink::Counts closed_counts_;  // of links that are no more
+  CanLink::Counts closed_counts_;  // counts of closed links
   CanBus bus_;
   CanBusState told_bus_ = CanBusState::active;
   Clock::time_point look_at_{}, last_reading_{}, bus_told_at_{};
   BackOff back_off_;
-  bool is_new_ = false;   // the link, or it was down: no odometry has come since
-  bool is_full_ = false;  // the last turn left frames behind
+  // The link is new, or was down; no odometry has come since.
+  bool is_new_ = false;
+  bool is_full_ = false;  // the last turn left frames unread
   std::string told_note_;
   std::uint64_t malformed_robot_ = 0;
 

@@ -9,7 +9,7 @@ namespace azimuth {
 namespace {
 
 static_assert(kMostCanSocketBytes == CANFD_MTU && CanFrame::kMostBytes == CANFD_MAX_DLEN);
-// Both structs begin alike, with the data at the same place.
+// Both structures begin alike, with the data at the same offset.
 static_assert(offsetof(can_frame, data) == offsetof(canfd_frame, data));
 static_assert(offsetof(can_frame, len) == offsetof(canfd_frame, len));
 
@@ -36,7 +36,7 @@ std::optional<CanFrame> decode_can_frame(std::span<const std::uint8_t> datagram)
   frame.id.extended = frame.kind != CanFrame::Kind::error && (raw.can_id & CAN_EFF_FLAG) != 0;
   frame.id.number =
       raw.can_id & (frame.id.extended || frame.kind == CanFrame::Kind::error ? CAN_EFF_MASK : CAN_SFF_MASK);
-  if (frame.kind == CanFrame::Kind::remote) return frame;  // its length is that of the answer it asks for
+  if (frame.kind == CanFrame::Kind::remote) return frame;  // its length is that of the requested answer
   frame.size = raw.len;
   std::copy_n(raw.data, raw.len, frame.data.begin());
   return frame;

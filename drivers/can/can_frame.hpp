@@ -7,7 +7,8 @@
 
 namespace azimuth {
 
-/// What names a frame on the bus: 11 bits, or 29 of an extended one. The same number may stand for two frames.
+/// The identifier of a frame on the bus, with 11 bits, or 29 in an extended frame. Both kinds may use the same number
+/// for different frames.
 struct CanId {
   std::uint32_t number = 0;
   bool extended = false;
@@ -17,17 +18,18 @@ struct CanId {
   }
 };
 
-/// The largest number an id may have.
+/// The largest number of an identifier.
 constexpr std::uint32_t largest_can_id(bool extended) { return extended ? 0x1FFFFFFFU : 0x7FFU; }
 
-/// A frame as the kernel hands it over.
+/// A frame as the kernel delivers it.
 struct CanFrame {
   enum class Kind : std::uint8_t {
     data,
-    remote,  ///< asks another node for data, carries none
-    error    ///< made by the controller's driver: `id.number` holds the classes of error, the data their details
+    remote,  ///< requests data from another node, carries none
+    /// Made by the controller's driver: `id.number` holds the classes of error, the data their details.
+    error
   };
-  static constexpr std::size_t kMostBytes = 64;  ///< of CAN FD; classic frames have 8
+  static constexpr std::size_t kMostBytes = 64;  ///< for CAN FD; classic frames have at most 8
 
   CanId id;
   Kind kind = Kind::data;
@@ -39,14 +41,14 @@ struct CanFrame {
   friend bool operator==(const CanFrame&, const CanFrame&) = default;
 };
 
-/// The most bytes a frame takes on a SocketCAN socket (CANFD_MTU).
+/// Largest size of a frame on a SocketCAN socket [bytes] (CANFD_MTU).
 inline constexpr std::size_t kMostCanSocketBytes = 72;
 
-/// A datagram of a SocketCAN socket: `struct can_frame` or `struct canfd_frame`. Nothing when it is neither, or its
-/// length is more than such a frame carries.
+/// Decodes a datagram of a SocketCAN socket: `struct can_frame` or `struct canfd_frame`. None when it is neither, or
+/// when its length exceeds the capacity of such a frame.
 std::optional<CanFrame> decode_can_frame(std::span<const std::uint8_t> datagram);
 
-/// The reverse. Returns the bytes used. A frame of more than 8 bytes must be one of CAN FD.
+/// Encodes a frame, and returns the number of bytes used. A frame of more than 8 bytes must be a CAN FD frame.
 std::size_t encode_can_frame(const CanFrame& frame, std::span<std::uint8_t, kMostCanSocketBytes> datagram);
 
 }  // namespace azimuth

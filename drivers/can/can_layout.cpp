@@ -19,9 +19,9 @@ class LayoutFinder {
       wheels();
     }
     if (!settings_.battery.empty()) layout_.battery = required("battery", settings_.battery);
-    layout_.emergency_stop = flag("emergency_stop", settings_.emergency_stop);
-    layout_.bumper = flag("bumper", settings_.bumper);
-    layout_.charging = flag("charging", settings_.charging);
+    layout_.emergency_stop = optional("emergency_stop", settings_.emergency_stop);
+    layout_.bumper = optional("bumper", settings_.bumper);
+    layout_.charging = optional("charging", settings_.charging);
     if (!errors_.empty()) return failure(errors_);
     return std::move(layout_);
   }
@@ -57,15 +57,8 @@ class LayoutFinder {
     if (const auto signal = required(key, name)) layout_.motion.push_back({*signal, unit, fastest_per_s});
   }
 
-  std::optional<CanFlagSignal> flag(const char* key, const CanFlagSettings& flag) {
-    if (flag.signal.empty()) return std::nullopt;
-    const auto signal = required(key, flag.signal);
-    if (!signal) return std::nullopt;
-    CanFlagSignal found;
-    found.signal = *signal;
-    if (flag.mask >= 0) found.mask = static_cast<std::uint64_t>(flag.mask);
-    if (flag.value >= 0) found.value = static_cast<std::uint64_t>(flag.value);
-    return found;
+  std::optional<CanSignal> optional(const char* key, const std::string& name) {
+    return name.empty() ? std::nullopt : required(key, name);
   }
 
   std::optional<CanSignal> required(const char* key, const std::string& name) {
@@ -129,7 +122,7 @@ std::vector<CanId> CanLayout::ids() const {
   for (const CanMotionSignal& part : motion) ids.push_back(part.signal.frame);
   if (battery) ids.push_back(battery->frame);
   for (const auto* flag : {&emergency_stop, &bumper, &charging})
-    if (*flag) ids.push_back((*flag)->signal.frame);
+    if (*flag) ids.push_back((*flag)->frame);
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   return ids;

@@ -11,37 +11,31 @@
 
 namespace azimuth {
 
-/// One of the signals that odometry is made of.
+/// A signal from which odometry is computed.
 struct CanMotionSignal {
   CanSignal signal;
-  double unit = 1.0;           ///< metres, m/s or radians per unit of the signal; negative: reversed
-  double fastest_per_s = 1.0;  ///< no change of the quantity is faster (of a speed: the fastest itself)
+  double unit = 1.0;  ///< metres, m/s or radians per unit of the signal; negative: reversed
+  /// Largest rate of change of the quantity per second; for a speed, the largest speed itself.
+  double fastest_per_s = 1.0;
 };
 
-/// A signal that says yes or no.
-struct CanFlagSignal {
-  CanSignal signal;
-  std::uint64_t mask = ~std::uint64_t{0};
-  std::optional<std::uint64_t> value{};  ///< of those bits when it is yes; nothing: any but zero
-};
-
-/// Where what the settings name is to be found in which frames.
+/// The position of each configured signal in its frame.
 struct CanLayout {
   CanOdometryKind odometry = CanOdometryKind::ticks;
-  std::vector<CanMotionSignal> motion;  ///< left and right, or x, y and heading
-  double track_m = 1.0;                 ///< of ticks and speeds
+  std::vector<CanMotionSignal> motion;  ///< left and right wheel, or x, y and heading
+  double track_m = 1.0;                 ///< used for ticks and speeds
   std::optional<CanSignal> battery;
-  std::optional<CanFlagSignal> emergency_stop, bumper, charging;
+  std::optional<CanSignal> emergency_stop, bumper, charging;
 
-  /// The frames that are wanted, each once.
+  /// Identifiers of the frames that are read, each once.
   std::vector<CanId> ids() const;
 };
 
-/// Finds the signals that the settings name: in the settings themselves, else in `dbc` (null: no file). Every mistake
-/// is an error whose file is the setting's name.
+/// Finds the signals that the settings name: in the settings themselves, otherwise in `dbc` (null: no file). Every
+/// mistake becomes an error whose file is the name of the setting.
 FileResult<CanLayout> find_can_layout(const CanSettings& settings, const Dbc* dbc);
 
-/// The signal that settings describe, apart from its multiplexer.
+/// The signal described by the settings, without its multiplexer.
 CanSignal described_signal(const CanSignalSettings& settings);
 
 }  // namespace azimuth

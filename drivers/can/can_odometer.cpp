@@ -9,13 +9,14 @@ namespace azimuth {
 namespace {
 
 constexpr DeviceClock::duration kLeastInterval = std::chrono::milliseconds(2);
-constexpr double kHiddenPath = 0.05;  // deviation per metre of a path between two instants far apart
-constexpr double kHiddenArc = 0.25;   // and per radian, where values are missing: when on the way was the turn?
+constexpr double kHiddenPath = 0.05;  // standard deviation per metre of a path between two distant instants
+// Standard deviation per radian when values are missing, because the place of the turn on the path is unknown.
+constexpr double kHiddenArc = 0.25;
 
-// While the base is not heard the robot may go on as it went, begin to turn, or be pushed.
+// While the base is silent the robot may continue to drive, start to turn, or be pushed.
 constexpr double kLongestDrive_s = 5.0;
-constexpr double kIndoorTurn_rad_s = 1.0;  // robots indoors turn by up to that
-constexpr double kMayTurn_rad_s = 0.45;    // deviation of it
+constexpr double kIndoorTurn_rad_s = 1.0;  // robots indoors turn by up to this rate
+constexpr double kMayTurn_rad_s = 0.45;    // standard deviation of the turn rate
 constexpr double kPushed_m = 0.05, kPushed_rad = 0.05;
 
 CanQuantity quantity_of(CanOdometryKind kind, std::size_t channel) {
@@ -76,7 +77,7 @@ CanOdometer::Heard CanOdometer::hear(const CanFrame& frame, DeviceClock::time_po
   return heard;
 }
 
-/// One counter that begins anew means that all do. Those of this frame have done so.
+/// One counter that restarts means that all have restarted. The values in this frame are already the new ones.
 void CanOdometer::begin_anew(const Heard& heard, DeviceClock::time_point at) {
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     if (const auto& value = heard.values.at(i)) {
@@ -92,7 +93,7 @@ void CanOdometer::begin_anew(const Heard& heard, DeviceClock::time_point at) {
   sigma_m_ = sigma_rad_ = 0.0;
 }
 
-/// The newest at which every channel is known.
+/// The newest instant at which every channel is known.
 std::optional<CanOdometer::Instant> CanOdometer::newest_instant() const {
   Instant instant{DeviceClock::time_point::max(), {}};
   for (const CanChannel& channel : channels_) {
@@ -108,7 +109,7 @@ std::optional<CanOdometer::Instant> CanOdometer::newest_instant() const {
   return instant;
 }
 
-/// T_from_to of the body.
+/// The motion T_from_to of the body.
 Pose2 CanOdometer::step(const Values& from, const Values& to) const {
   if (kind_ == CanOdometryKind::pose) {
     const Pose2 T_base_from{from[0], from[1], wrap(from[2])}, T_base_to{to[0], to[1], wrap(to[2])};
@@ -116,13 +117,13 @@ Pose2 CanOdometer::step(const Values& from, const Values& to) const {
   }
   const double left_m = to[0] - from[0], right_m = to[1] - from[1];
   const double turn_rad = (right_m - left_m) / track_m_, half_rad = 0.5 * turn_rad;
-  // The chord of an arc.
+  // Ratio of chord to arc.
   const double chord = half_rad == 0.0 ? 1.0 : std::sin(half_rad) / half_rad;
   const double length_m = 0.5 * (left_m + right_m) * chord;
   return {length_m * std::cos(half_rad), length_m * std::sin(half_rad), wrap(turn_rad)};
 }
 
-/// What is uncertain of a step: what its channels say, and the shape of a path over a gap.
+/// Adds the uncertainty of a step: the uncertainty of the channels, and that of the path's shape over a gap.
 void CanOdometer::step_sigma(const Pose2& T_last_body, double elapsed_s) {
   Values sigmas{};
   for (std::size_t i = 0; i < channels_.size(); ++i) sigmas.at(i) = channels_[i].take_sigma();

@@ -16,45 +16,53 @@ namespace azimuth {
 
 /// Cumulative odometry from a base's frames: wheel ticks, wheel speeds or poses.
 ///
-/// The signals may come in one frame or in several, each at its own pace. They are paired by time: each is a line over
-/// time, and a reading is of the newest instant at which all of them are known, the ones measured before and after
-/// being interpolated. So frames close together give a reading as soon as the last of them is there, staggered ones
-/// give no false turn, and a lost frame leaves no lasting shift.
+/// The signals may arrive in one frame or in several, at different rates. They are paired by time: each signal is a
+/// line over time, and a reading belongs to the newest instant at which all signals are known, by interpolation between
+/// the values before and after. So frames close together give a reading as soon as the last of them has arrived, frames
+/// at different times cause no false turn, and a lost frame causes no lasting error.
 ///
-/// Counters are differenced modulo their bits, so lost frames lose no motion. A base that begins to count anew, or
-/// whose speeds were not heard of for `stale_s`, gets a new origin, and what it may have moved meanwhile is uncertain
-/// (sigma_gap_m, sigma_gap_rad); so is the way over a gap.
+/// Counters are differenced modulo their bits, so lost frames lose no motion. When the base restarts its counting, or
+/// its speeds are missing for `stale_s`, the readings get a new origin, and the motion meanwhile is uncertain
+/// (sigma_gap_m, sigma_gap_rad). The motion over a gap is uncertain in the same way.
 ///
-/// Stamps increase strictly. There are at most 500 readings a second; frames between them lose no motion.
+/// Stamps increase strictly. There are at most 500 readings per second; skipped frames lose no motion.
 ///
 /// Thread contract: thread-bound; never allocates after construction.
 class CanOdometer {
  public:
-  /// `layout` must be that of find_can_layout(). `epoch_minus_monotonic` turns arrival times into stamps.
+  /// `layout` must come from find_can_layout(). `epoch_minus_monotonic` turns times of arrival into stamps.
   CanOdometer(const CanLayout& layout, const CanSettings& settings, Duration epoch_minus_monotonic);
 
-  /// Any frame, and when it came; foreign ones are ignored. Returns the reading it completes.
+  /// Takes any frame with its time of arrival; foreign frames are ignored. Returns the reading that the frame
+  /// completes.
   std::optional<OdometryReading> add(const CanFrame& frame, DeviceClock::time_point at);
 
-  /// What the next process needs to go on with the base's counters; speeds are none. False: there is nothing.
+  /// Writes the state that the next process needs to continue with the base's counters. False: there is none. Wheel
+  /// speeds never have one.
   bool remember(OdometerMemory& out) const;
-  /// Before the first frame: readings go on where those of another process ended, unless the base's counters say that
-  /// it began anew. False: this was remembered of other signals, and readings begin at the next origin.
+  /// Called before the first frame. Readings continue where those of another process ended, unless the base's counters
+  /// show that it restarted. False: the memory belongs to other signals, and readings start with the next origin.
   bool restore(const OdometerMemory& memory);
-  /// Readings begin after that origin.
+  /// Makes readings start after `origin`.
   void follow(std::uint32_t origin) { origin_ = first_origin_ = origin + 1; }
 
-  double speed_m_s() const { return speed_m_s_; }                     ///< over the last reading's step
-  std::uint64_t malformed() const { return malformed_; }              ///< signals too short, or not a finite number
-  std::uint64_t missed() const;                                       ///< values that were due and did not come
-  std::uint64_t doubted() const;                                      ///< values that could not be true
-  std::uint64_t restarts() const { return origin_ - first_origin_; }  ///< of the base's counting
-  std::uint64_t gaps() const { return gaps_; }                        ///< readings with more than the usual uncertainty
+  /// Speed over the step of the last reading.
+  double speed_m_s() const { return speed_m_s_; }
+  /// Signals that were too short or not a finite number.
+  std::uint64_t malformed() const { return malformed_; }
+  /// Values that were due and did not arrive.
+  std::uint64_t missed() const;
+  /// Number of implausible values.
+  std::uint64_t doubted() const;
+  /// Restarts of the base's counting.
+  std::uint64_t restarts() const { return origin_ - first_origin_; }
+  /// Readings with more than the usual uncertainty.
+  std::uint64_t gaps() const { return gaps_; }
 
  private:
   static constexpr std::size_t kMostChannels = 3;
   using Values = std::array<double, kMostChannels>;
-  /// The channels at one instant.
+  /// The values of all channels at one instant.
   struct Instant {
     DeviceClock::time_point at{};
     Values values{};
@@ -81,8 +89,8 @@ class CanOdometer {
   std::vector<CanChannel> channels_;
 
   DeviceClock::time_point heard_at_{};
-  std::optional<Instant> last_;                            // of this origin
-  std::optional<DeviceClock::time_point> before_restart_;  // last instant of the origin before
+  std::optional<Instant> last_;                            // last instant of this origin
+  std::optional<DeviceClock::time_point> before_restart_;  // last instant of the previous origin
   std::uint64_t missed_at_last_ = 0;
   Pose2 T_odom_body_;
   double sigma_m_ = 0.0, sigma_rad_ = 0.0;

@@ -1,4 +1,4 @@
-// CanOdometer: what outlives the process.
+// The state of CanOdometer that outlives the process.
 
 #include <cmath>
 
@@ -7,11 +7,12 @@
 namespace azimuth {
 namespace {
 
-// Of the numbers: four of each channel, the channels at the last reading, and what they are of.
+// Layout of OdometerMemory::numbers: four for each channel, the channels at the last reading, and a signature of the
+// signals.
 constexpr std::size_t kOfChannel = 4, kLast = 12, kSignature = 15;
-constexpr double kLongest_s = 1e6;  // between the channels
+constexpr double kLongest_s = 1e6;  // largest time between the channels
 
-/// Whether all that are real numbers can be calculated with.
+/// True: all stored real numbers can be used for computation.
 bool is_sane(const OdometerMemory& memory) {
   for (std::size_t i = 0; i < kSignature; ++i) {
     const bool is_raw = i < kLast && i % kOfChannel == 0, is_time = i < kLast && i % kOfChannel == 2;

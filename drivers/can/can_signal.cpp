@@ -20,12 +20,12 @@ std::int64_t sign_extended(std::uint64_t raw, int length_bits) {
   return static_cast<std::int64_t>(raw << unused) >> unused;
 }
 
-/// The part of a field within one byte.
+/// The part of a bit field within one byte.
 struct Piece {
   std::size_t byte = 0;
   int lowest_bit = 0;  // within the byte
   int count_bits = 0;
-  int shift = 0;  // of these bits within the number
+  int shift = 0;  // position of these bits in the number
 };
 
 /// Calls `visit` with each piece of the field, in the order of the bytes.

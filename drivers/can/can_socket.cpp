@@ -30,13 +30,13 @@ int index_of(int fd, const std::string& interface) {
   return ::ioctl(fd, SIOCGIFINDEX, &request) < 0 ? 0 : request.ifr_ifindex;
 }
 
-/// What the kernel gives at most is a setting of the machine.
+/// Enlarges the receive buffer. Returns a note if the kernel, whose limit is a system setting, grants less.
 std::string grow_buffer(const UniqueFd& fd) {
   set(fd, SOL_SOCKET, SO_RCVBUF, kReceiveBuffer_bytes);
   int granted = 0;
   socklen_t size = sizeof granted;
   ::getsockopt(fd.get(), SOL_SOCKET, SO_RCVBUF, &granted, &size);
-  granted /= 2;  // the kernel doubles what is asked for, to have room for its own structures
+  granted /= 2;  // the kernel doubles the requested size to have room for its own structures
   if (granted >= kReceiveBuffer_bytes) return "";
   return fmt::format("receive buffer of {} kB instead of {} kB (net.core.rmem_max)", granted / 1024,
                      kReceiveBuffer_bytes / 1024);
@@ -72,7 +72,7 @@ std::vector<can_filter> can_filters(std::span<const CanId> ids) {
 CanSocket::CanSocket(std::string interface, UniqueFd fd, int index)
     : interface_(std::move(interface)), fd_(std::move(fd)), index_(index) {
   const int on = 1;
-  set(fd_, SOL_SOCKET, SO_TIMESTAMPNS, on);  // without it frames are dated when they are read
+  set(fd_, SOL_SOCKET, SO_TIMESTAMPNS, on);  // without it, frames are stamped when they are read
   set(fd_, SOL_SOCKET, SO_RXQ_OVFL, on);
   note_ = grow_buffer(fd_);
   look_at_clocks();
@@ -86,7 +86,7 @@ OpenedCanLink CanSocket::open(const std::string& interface, std::span<const CanI
   if (const auto error_number = apply_filters(fd, ids))
     return tl::unexpected(CanTrouble{interface, "CAN filters", *error_number});
   const int on = 1;
-  set(fd, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, on);  // refused by kernels without CAN FD, whose frames are all classic
+  set(fd, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, on);  // refused by kernels without CAN FD, which have only classic frames
   sockaddr_can address{};
   address.can_family = AF_CAN;
   address.can_ifindex = index;
@@ -104,7 +104,7 @@ void CanSocket::look_at_clocks() {
   stamps_.look(wall, now_);
 }
 
-/// The kernel has overwritten lengths.
+/// Prepares the buffers again, because the kernel has overwritten the lengths.
 void CanSocket::prepare() {
   for (std::size_t i = 0; i < kBatch; ++i) {
     Slot& slot = slots_.at(i);
@@ -168,7 +168,7 @@ DeviceClock::time_point CanSocket::read_control(const msghdr& header) {
       at = stamps_.monotonic(from_timespec(stamp));
     }
     if (part->cmsg_type == SO_RXQ_OVFL && part->cmsg_len >= CMSG_LEN(sizeof(std::uint32_t))) {
-      std::uint32_t drops = 0;  // of the socket so far, modulo 2^32
+      std::uint32_t drops = 0;  // drops of the socket so far, modulo 2^32
       std::memcpy(&drops, CMSG_DATA(part), sizeof drops);
       dropped_ += static_cast<std::uint32_t>(drops - std::exchange(last_drops_, drops));
     }

@@ -10,15 +10,15 @@
 
 namespace azimuth {
 
-/// A raw CAN socket that listens to one interface: the kernel filters, stamps and counts what it drops. Nothing is ever
-/// sent.
+/// A raw CAN socket that listens to one interface. The kernel filters and stamps the frames, and counts those it drops.
+/// The socket never sends.
 ///
-/// Thread contract: thread-bound; allocates only to open and to report errors.
+/// Thread contract: thread-bound; allocates only in order to open and to report errors.
 class CanSocket final : public CanLink {
  public:
-  /// The interface's index is looked up anew, for an adapter that was plugged in again has another.
+  /// Looks up the interface's index each time, because an adapter that was plugged in again has another index.
   static OpenedCanLink open(const std::string& interface, std::span<const CanId> ids);
-  /// Any socket whose datagrams are frames.
+  /// Takes any socket whose datagrams are frames.
   CanSocket(std::string interface, UniqueFd fd, int index);
 
   int descriptor() const override { return fd_.get(); }
@@ -29,7 +29,7 @@ class CanSocket final : public CanLink {
 
  private:
   static constexpr std::size_t kBatch = 32;
-  /// Where the kernel writes a datagram and what it says about it.
+  /// The buffers for a datagram and its control data.
   struct Slot {
     alignas(8) std::array<std::uint8_t, kMostCanSocketBytes> datagram;
     alignas(cmsghdr) std::array<std::uint8_t, 128> control;
@@ -54,7 +54,7 @@ class CanSocket final : public CanLink {
   std::uint32_t last_drops_ = 0;
 };
 
-/// Lets data frames of exactly these ids pass.
+/// Filters that pass data frames with exactly these identifiers.
 std::vector<can_filter> can_filters(std::span<const CanId> ids);
 
 }  // namespace azimuth

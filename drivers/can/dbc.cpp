@@ -10,15 +10,15 @@ namespace azimuth {
 namespace {
 
 constexpr std::uint64_t kExtendedFlag = 0x80000000U;
-constexpr std::uint64_t kNoFrame = 0xC0000000U;  // holds signals that are in no frame
+constexpr std::uint64_t kNoFrame = 0xC0000000U;  // holds signals that belong to no frame
 
-/// How a signal takes part in multiplexing.
+/// The role of a signal in multiplexing.
 struct Role {
   bool selects = false;
   std::optional<std::uint64_t> selected_by;  // the multiplexer's value
 };
 
-/// "M", "m5" or "m5M".
+/// Parses the role of a signal: "M", "m5" or "m5M".
 std::optional<Role> role_of(std::string_view word) {
   Role role;
   if (word.ends_with('M')) {
@@ -159,7 +159,7 @@ class DbcReader {
       signal.problem = fmt::format("is a float of {} bits in {}", length_bits, signal.signal.bits.length_bits);
   }
 
-  /// Which signal the multiplexed ones depend on is known when all are there.
+  /// Called when all signals of a frame are known, because a multiplexed signal may come before its multiplexer.
   void finish_message() {
     if (current_ != Current::message) return;
     current_ = Current::none;
@@ -180,8 +180,8 @@ class DbcReader {
   DbcText text_;
   Dbc dbc_;
   FileErrors errors_;
-  enum class Current { none, passed_over, message } current_ = Current::none;  // what SG_ belongs to
-  std::vector<Role> roles_;                                                    // of the present frame's signals
+  enum class Current { none, passed_over, message } current_ = Current::none;  // the frame to which SG_ belongs
+  std::vector<Role> roles_;                                                    // roles of the current frame's signals
 };
 
 }  // namespace

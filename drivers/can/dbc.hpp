@@ -14,7 +14,7 @@ struct DbcSignal {
   std::string name;
   CanSignal signal;
   int line = 0;
-  std::optional<std::string> problem;  ///< why it cannot be used
+  std::optional<std::string> problem;  ///< why the signal cannot be used; none: it can be used
 };
 
 /// A frame of a DBC file.
@@ -26,20 +26,20 @@ struct DbcMessage {
   std::vector<DbcSignal> signals;
 };
 
-/// The part of a DBC file that says where which signal is.
+/// The part of a DBC file that gives the positions of signals.
 struct Dbc {
   std::string file;
   std::vector<DbcMessage> messages;
 
-  /// By "Message.Signal"; null when there is none.
+  /// Finds a signal by "Message.Signal"; null when there is none.
   const DbcSignal* find(std::string_view name) const;
 };
 
-/// Reads BO_, SG_ (with simple multiplexing) and SIG_VALTYPE_; every other statement is passed over. What cannot be
-/// read is an error with its line. A signal that is written rightly and cannot be used (it reaches beyond its frame, it
-/// needs extended multiplexing) says so itself, for it may be one that nobody wants.
+/// Reads BO_, SG_ (with simple multiplexing) and SIG_VALTYPE_; other statements are skipped. A syntax error is reported
+/// with its line. A correctly written signal that cannot be used (it reaches beyond its frame, or needs extended
+/// multiplexing) gets a `problem` instead, because it may be a signal that is not needed.
 ///
-/// Reentrant. `file` is what errors name.
+/// Thread contract: reentrant. Errors name `file`.
 FileResult<Dbc> read_dbc(std::string_view text, const std::string& file);
 
 }  // namespace azimuth

@@ -11,7 +11,7 @@ bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 bool is_word(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; }
 
-/// Taken from the front of `text`; the number of characters is 0 when there is no number.
+/// Parses a number at the beginning of `text`. Returns its number of characters; 0: there is none.
 template <class Number>
 std::size_t parse(std::string_view text, Number& number) {
   const auto [end, wrong] = std::from_chars(text.data(), text.data() + text.size(), number);

@@ -7,8 +7,9 @@
 
 namespace azimuth {
 
-/// The text of a DBC file, taken from the front. What is not there is not taken. Blanks before a thing are passed over,
-/// ends of lines are not: a statement that is cut short must not go on in the next line.
+/// The text of a DBC file, consumed from its beginning. A function that does not find its element consumes nothing.
+/// Blanks before an element are skipped, but not line ends, because a truncated statement must not continue in the next
+/// line.
 ///
 /// Thread contract: thread-bound; never allocates.
 class DbcText {
@@ -18,14 +19,14 @@ class DbcText {
   bool at_end() const { return rest_.empty(); }
   int line() const { return line_; }
 
-  void skip_space();  ///< ends of lines as well
-  /// To the next line; a string on the way may have many lines. False: one has no end.
+  void skip_space();  ///< skips line ends as well
+  /// Skips to the next line; a string on the way may span several lines. False: a string has no end.
   bool skip_statement_line();
 
   std::string_view word();  ///< letters, digits and '_'; empty: none
   bool take(char c);
   std::optional<std::uint64_t> natural();
-  std::optional<double> number();  ///< finite
+  std::optional<double> number();  ///< a finite number; none: there is none
 
  private:
   void skip_blanks();

@@ -7,8 +7,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kStep = 100us;  // a larger change is a step, not the clock's discipline
-constexpr auto kSlack = 2ms;   // the clocks are not read in one instant
+constexpr auto kStep = 100us;  // a change larger than this is a step, not a slow correction of the clock
+constexpr auto kSlack = 2ms;   // the two clocks are not read at the same instant
 
 }  // namespace
 

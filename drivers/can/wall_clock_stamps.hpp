@@ -5,24 +5,25 @@
 
 namespace azimuth {
 
-/// Turns the kernel's receive stamps, which are of the wall clock, into those of CLOCK_MONOTONIC.
+/// Converts the kernel's receive stamps, which are on the wall clock, to CLOCK_MONOTONIC.
 ///
-/// Somebody may set the wall clock between a frame's arrival and our look at it. Then its stamp is off by that step; so
-/// the step before is tried as well, and a stamp that fits neither is replaced by now.
+/// The wall clock may be set between the arrival of a frame and its reading. The stamp is then wrong by that step, so
+/// the difference of the two clocks before the step is tried as well. A stamp that fits neither is replaced by the
+/// current time.
 ///
 /// Thread contract: thread-bound; never allocates.
 class WallClockStamps {
  public:
   using Wall = std::chrono::nanoseconds;  ///< since the Unix epoch
 
-  /// Both clocks, read together, before frames are read.
+  /// Takes both clocks, read together, before frames are read.
   void look(Wall wall_now, DeviceClock::time_point now);
-  /// All frames that came before `now` have been read: later ones are younger.
+  /// To be called when all frames that arrived before `now` have been read, so that later frames are younger.
   void note_empty(DeviceClock::time_point now) { empty_at_ = now; }
 
-  /// When a frame came, with the clocks as looked at last. Never later than that look.
+  /// The time of arrival of a frame, by the clocks of the last look(). Never later than that look.
   DeviceClock::time_point monotonic(Wall stamp);
-  std::uint64_t replaced() const { return replaced_; }  ///< stamps that could not be true
+  std::uint64_t replaced() const { return replaced_; }  ///< implausible stamps
 
  private:
   bool can_be(DeviceClock::time_point at) const;

@@ -1,5 +1,5 @@
 #pragma once
-// Instants at devices, and stamps. Thread contract: reentrant.
+// Times of devices, and their conversion to stamps. Thread contract: reentrant.
 
 #include <chrono>
 
@@ -8,7 +8,7 @@
 
 namespace azimuth {
 
-/// What devices are waited for by, and what they did is dated by: CLOCK_MONOTONIC.
+/// The clock by which drivers wait for devices and date their events: CLOCK_MONOTONIC.
 using DeviceClock = std::chrono::steady_clock;
 
 // Stamps are CLOCK_MONOTONIC plus `epoch_minus_monotonic`.

@@ -10,17 +10,17 @@
 
 namespace azimuth {
 
-/// What there is to tell of a device, for the log: every new trouble once until the device runs again, also when
-/// several alternate.
+/// The messages about a device for the log. Each new trouble is reported once until the device runs again, even when
+/// several troubles alternate.
 ///
 /// Thread contract: thread-bound. Nothing allocates while the device runs.
 class DeviceNews {
  public:
-  /// `running` is what there is to tell when it runs, e.g. "odometry comes from /dev/ttyUSB0".
+  /// `running` is the message for a device that starts to run, e.g. "odometry comes from /dev/ttyUSB0".
   explicit DeviceNews(std::string running = {}) : running_(std::move(running)) {}
   void call_running(std::string running) { running_ = std::move(running); }
 
-  /// The state becomes this one. A device that is only starting still has the trouble it had, unless there is another.
+  /// Changes `state`. A device that is starting keeps its previous trouble, unless there is another one.
   void enter(Connection connection, const std::string& trouble, DeviceState& state) {
     const Connection before = std::exchange(state.connection, connection);
     if (connection == Connection::starting && trouble.empty()) return;
@@ -33,7 +33,7 @@ class DeviceNews {
     }
   }
   void tell(std::string event) { events_.push(std::move(event)); }
-  /// The oldest sentence not taken yet.
+  /// Takes the oldest message.
   bool take(std::string& event) { return events_.pop(event); }
 
  private:

@@ -10,18 +10,19 @@
 
 namespace azimuth {
 
-/// What an odometer showed last, and where that was in the frame of its readings. A controller, a base or another
-/// process goes on counting while nobody listens: with this the next process's readings go on in the same frame. The
-/// robot is asked again for everything else.
+/// The last values of an odometer, and the pose of its readings at that time. A controller, a base or another process
+/// continues to count while the daemon does not run. With this memory the readings of the next process continue in the
+/// same frame. Everything else is requested from the robot again.
 struct OdometerMemory {
   static constexpr std::size_t kMostNumbers = 16;
 
-  std::string odometer;      ///< which kind, and how it is reached: what others wrote is of no use
-  std::string robot;         ///< what the robot calls itself; may be empty
-  std::uint32_t origin = 0;  ///< of the readings
-  Stamp at{};                ///< when it showed what follows
-  Pose2 T_odom_body;         ///< then
-  /// The counters, and what else that kind of odometer needs, as its driver has it.
+  /// The kind of odometer and its address. The memory of another odometer is not used.
+  std::string odometer;
+  std::string robot;         ///< the robot's own name; may be empty
+  std::uint32_t origin = 0;  ///< origin of the readings
+  Stamp at{};                ///< time of the values below
+  Pose2 T_odom_body;         ///< pose at that time
+  /// The counters and other numbers of this kind of odometer, in the layout of its driver.
   std::array<std::uint64_t, kMostNumbers> numbers{};
   friend bool operator==(const OdometerMemory&, const OdometerMemory&) = default;
 

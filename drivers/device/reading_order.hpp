@@ -7,12 +7,13 @@
 
 namespace azimuth {
 
-/// Dates and numbers an odometer's readings.
+/// Assigns stamps and sequence numbers to an odometer's readings.
 ///
 /// Thread contract: thread-bound.
 class ReadingOrder {
  public:
-  /// Of `stamp`, or of the first moment after the reading before: clocks are corrected, odometry only goes on.
+  /// The reading gets `stamp`, or the first instant after the previous reading if `stamp` is not later. Clocks may be
+  /// corrected backwards, but the stamps of odometry must increase.
   OdometryReading next(Stamp stamp) {
     OdometryReading reading;
     reading.stamp = newest_ ? std::max(stamp, *newest_ + Duration{1}) : stamp;

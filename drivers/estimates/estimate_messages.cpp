@@ -28,7 +28,7 @@ pose_cov_t to_message(const Estimate& estimate) {
   pose_cov_t message;
   message.utime = to_us(estimate.stamp);
   message.utime_mono = 0;
-  message.seq = static_cast<std::int64_t>(estimate.sequence);  // LCM has no unsigned integers
+  message.seq = static_cast<std::int64_t>(estimate.sequence);  // LCM has no unsigned integer types
   message.x_m = estimate.T_map_body.x_m;
   message.y_m = estimate.T_map_body.y_m;
   message.heading_rad = estimate.T_map_body.heading_rad;

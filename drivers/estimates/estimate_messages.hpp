@@ -1,5 +1,5 @@
 #pragma once
-// Estimates as LCM messages, and back; samples are in drivers/wire/messages.hpp. Reentrant.
+// Estimates as LCM messages, and back; samples are in drivers/wire/messages.hpp. Thread contract: reentrant.
 
 #include <Eigen/Core>
 #include <azimuth/landmark_t.hpp>
@@ -13,19 +13,19 @@
 
 namespace azimuth {
 
-/// As pose_cov_t says it.
+/// The code of a health in pose_cov_t.
 std::int8_t health_code(Health health);
-/// Nothing for a code of another version.
+/// The health of a code; none for a code of another version.
 std::optional<Health> health_of(std::int8_t code);
 
-/// Leaves the time of sending to the caller.
+/// The message of an estimate. The caller fills in the sending time.
 pose_cov_t to_message(const Estimate& estimate);
 Pose2 map_pose_of(const pose_cov_t& pose);
 Pose2 odom_pose_of(const pose_cov_t& pose);
-/// Of (x [m], y [m], heading [rad]) in the map frame.
+/// Covariance of (x [m], y [m], heading [rad]) in the map frame.
 Eigen::Matrix3d covariance_of(const pose_cov_t& pose);
 
-/// A landmark mapped in the plane has neither height nor its sigma: both are NaN.
+/// For a landmark mapped in the plane, height and its standard deviation are NaN.
 landmark_t to_message(const LandmarkEstimate& landmark);
 LandmarkEstimate landmark_of(const landmark_t& message);
 

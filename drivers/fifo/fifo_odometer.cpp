@@ -63,14 +63,16 @@ void FifoOdometer::turn(Clock::time_point now) {
     if (byte == '\n') accept(now);
     if (byte != '\n' && line_.size() <= kLongestLine) line_ += byte;
   }
-  if (got == 0) open(now);  // nobody has it open for writing: a descriptor that was hung up would wake us for ever
+  // At 0 no process has the FIFO open for writing. A descriptor that was hung up would wake the thread for ever.
+  if (got == 0) open(now);
   watch_silence(now);
 }
 
-/// What was open is closed last, so that a writer that comes meanwhile always finds a reader.
+/// The old descriptor is closed last, so that a writer that comes meanwhile always finds a reader.
 void FifoOdometer::open(Clock::time_point now) {
   const char* const path = settings_.path.c_str();
-  if (::mkfifo(path, 0660) == 0) static_cast<void>(::chmod(path, 0660));  // whatever the umask: others are to write
+  // The mode is set again regardless of the umask, because other users must be able to write.
+  if (::mkfifo(path, 0660) == 0) static_cast<void>(::chmod(path, 0660));
   UniqueFd opened(::open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC));
   const int error = errno;
   struct stat status {};
@@ -120,7 +122,7 @@ void FifoOdometer::refuse(std::string_view why) {
   state_.refusal = why;
 }
 
-/// A FIFO into which nobody ever writes is as silent as one whose writer is gone.
+/// A FIFO without a writer counts as silent as well.
 void FifoOdometer::watch_silence(Clock::time_point now) {
   if (!fifo_ || state_.connection == Connection::silent) return;
   if (now - last_reading_ >= clock_duration(settings_.silent_s))

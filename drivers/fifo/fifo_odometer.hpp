@@ -14,42 +14,45 @@
 namespace azimuth {
 
 struct FifoSettings {
-  std::string path = "/run/azimuth/odometry";  ///< made if nothing is there
-  double silent_s = 1.0;                       ///< a writer that writes nothing for so long is in trouble
+  std::string path = "/run/azimuth/odometry";  ///< created if it does not exist
+  double silent_s = 1.0;                       ///< a writer that is silent for this long is reported as silent
 };
 
 struct FifoState : DeviceState {
-  std::uint64_t refused = 0;  ///< lines of no use so far
-  std::string_view refusal;   ///< why, of the last one; static text
+  std::uint64_t refused = 0;  ///< number of refused lines
+  std::string_view refusal;   ///< why the last line was refused; static text
 };
 
-/// Of a line `stamp_s,x_m,y_m,heading_rad`, which may end in \r as on Windows; nothing for any other text. Thread
+/// Parses a line `stamp_s,x_m,y_m,heading_rad`, which may end in \r as on Windows; none for any other text. Thread
 /// contract: reentrant.
 std::optional<OdometryReading> parse_fifo_line(std::string_view line);
 
-/// Odometry from another program, a line of text a reading: cumulative poses, stamped by CLOCK_MONOTONIC in seconds
-/// (time.monotonic() in Python). For a thread that polls:
+/// Odometry from another program, one line of text per reading: cumulative poses with stamps of CLOCK_MONOTONIC in
+/// seconds (time.monotonic() in Python). For a thread that polls:
 ///
-///   poll descriptor() for POLLIN, for due_in() at most; turn(); take() and take_event() until they say no.
+///   poll descriptor() for POLLIN, for due_in() at most; then turn();
+///   then take() and take_event() until they return false.
 ///
-/// One program writes at a time. Each that opens the FIFO begins a new origin, since nobody knows how the robot went
-/// before, and so does a step that no wheels make (OdometrySteps). Stamps increase strictly.
+/// Only one program writes at a time. Each program that opens the FIFO starts a new origin, because the earlier motion
+/// of the robot is unknown to it. A step that wheels cannot make starts a new origin as well (OdometrySteps). Stamps
+/// increase strictly.
 ///
-/// Thread contract: thread-bound; nothing blocks. Allocates only to tell of a change, and to open it.
+/// Thread contract: thread-bound; nothing blocks. Allocates only to report a change, and to open the FIFO.
 class FifoOdometer {
  public:
   using Clock = DeviceClock;
 
-  /// Opens nothing yet. Readings are stamped CLOCK_MONOTONIC plus `epoch_minus_monotonic`.
+  /// Does not open the FIFO yet. Stamps are CLOCK_MONOTONIC plus `epoch_minus_monotonic`.
   FifoOdometer(FifoSettings settings, Duration epoch_minus_monotonic);
 
-  int descriptor() const { return fifo_.get(); }        ///< -1: none at present. May change with every turn
-  Clock::duration due_in(Clock::time_point now) const;  ///< until turn() is wanted without any event; never negative
+  int descriptor() const { return fifo_.get(); }  ///< to be polled; -1: none. It may change with every turn.
+  /// Time until turn() is needed without any event; never negative.
+  Clock::duration due_in(Clock::time_point now) const;
   void turn(Clock::time_point now);
-  bool take(OdometryReading& reading) { return readings_.pop(reading); }  ///< the oldest one not taken yet
-  void follow(std::uint32_t origin) { origin_ = origin; }                 ///< readings begin after that one
+  bool take(OdometryReading& reading) { return readings_.pop(reading); }  ///< takes the oldest reading
+  void follow(std::uint32_t origin) { origin_ = origin; }                 ///< readings start after `origin`
 
-  /// A sentence for the log about a change, oldest first.
+  /// Takes the oldest message for the log about a change.
   bool take_event(std::string& event) { return news_.take(event); }
 
   const FifoState& state() const { return state_; }
@@ -69,7 +72,7 @@ class FifoOdometer {
   std::uint32_t origin_ = 0;
   std::uint64_t sequence_ = 0;
   OdometrySteps steps_;
-  Clock::time_point last_reading_{};  // or when it was opened
+  Clock::time_point last_reading_{};  // time of the last reading, or of the opening
   BackOff back_off_;
   FifoState state_;
   Ring<OdometryReading, 64> readings_;

@@ -13,7 +13,8 @@
 namespace azimuth::iidc {
 namespace {
 
-/// The library's own threads complain, too; each thread has its own place, so that nothing is shared. Empty: nothing.
+/// The last message of the library on this thread; empty: none. The library's own threads write messages as well, so
+/// each thread has its own buffer and nothing is shared.
 constinit thread_local std::array<char, 256> g_complaint{};
 
 void keep_complaint(dc1394log_t /*type*/, const char* message, void* /*user*/) {
@@ -59,7 +60,8 @@ CameraTrouble trouble_with(std::string text, int error_number) {
   return {std::move(text), error_number};
 }
 
-/// Without a wish the lowest GUID, so that it does not depend on the order of the bus. Null: not there.
+/// Without a requested GUID, chooses the lowest one, so that the choice does not depend on the order of the bus. Null:
+/// not found.
 const dc1394camera_id_t* choose(std::span<const dc1394camera_id_t> found, const std::optional<std::uint64_t>& wish) {
   const auto chosen = wish ? std::ranges::find(found, *wish, &dc1394camera_id_t::guid)
                            : std::ranges::min_element(found, {}, &dc1394camera_id_t::guid);
@@ -75,7 +77,7 @@ bool is_on_usb(dc1394camera_t* camera) {
 }  // namespace
 
 void silence_library() {
-  // Once: the handlers belong to the whole process and are not meant to be changed while the library runs.
+  // Done once, because the handlers belong to the whole process and must not be changed while the library runs.
   [[maybe_unused]] static const bool done = [] {
     dc1394_log_register_handler(DC1394_LOG_ERROR, keep_complaint, nullptr);
     dc1394_log_register_handler(DC1394_LOG_WARNING, keep_complaint, nullptr);
@@ -123,7 +125,7 @@ std::uint32_t bus_generation(const OpenCamera& camera) {
 }
 
 std::string usb_port_of(const OpenCamera& camera) {
-  // What the library calls node and generation are address and bus there.
+  // On USB, the library's "node" and "generation" are the device's address and bus number.
   std::uint32_t address = 0, bus = 0;
   if (!camera.on_usb || dc1394_camera_get_node(camera.get(), &address, &bus) != DC1394_SUCCESS) return {};
   return usb_port_of(bus, address, "/sys/bus/usb/devices");

@@ -1,5 +1,6 @@
 #pragma once
-// The camera as libdc1394 knows it: found, opened, and what its calls answer in words. Internal to drivers/iidc.
+// The camera as an object of libdc1394: how it is found and opened, and the texts of its errors. Internal to
+// drivers/iidc.
 
 #include <dc1394/dc1394.h>
 #include <memory>
@@ -21,11 +22,11 @@ struct FreeCamera {
   void operator()(dc1394camera_t* camera) const { dc1394_camera_free(camera); }
 };
 
-/// One camera with a context of its own. Thread contract: thread-bound, as libdc1394 is; different objects may be used
-/// by different threads.
+/// One camera with a context of its own. Thread contract: thread-bound, as libdc1394 is; different threads may use
+/// different objects.
 struct OpenCamera {
   std::unique_ptr<dc1394_t, FreeContext> context;
-  std::unique_ptr<dc1394camera_t, FreeCamera> handle;  // goes first
+  std::unique_ptr<dc1394camera_t, FreeCamera> handle;  // destroyed before the context
   std::string guid;
   bool on_usb = false;
 
@@ -33,23 +34,23 @@ struct OpenCamera {
   dc1394camera_t* get() const { return handle.get(); }
 };
 
-/// From now on libdc1394 writes nothing to stderr: the last error or warning of each thread is kept for
-/// take_complaint(). What its debugging variable DC1394_DEBUG asks for is still printed.
+/// Stops libdc1394 from writing to stderr. The last error or warning of each thread is kept for take_complaint().
+/// Output requested by its debugging variable DC1394_DEBUG is still printed.
 void silence_library();
-/// What the library said on this thread since the last call; empty: nothing.
+/// The library's message on this thread since the last call; empty: none.
 std::string take_complaint();
 
-/// "IIDC camera GUID: what: why", with what the library complained about.
+/// "IIDC camera GUID: operation: cause", with the library's own message.
 CameraTrouble trouble_of(const OpenCamera& camera, std::string_view what, dc1394error_t error);
 
-/// The camera of the settings.
+/// Finds and opens the camera that the settings name.
 tl::expected<OpenCamera, CameraTrouble> find_camera(const IidcSettings& settings);
 
-/// The number of the last bus reset that the library has heard of, which it does when the camera is asked something.
-/// On USB it never changes.
+/// The number of the last bus reset that the library knows of. The library learns of a reset when the camera is asked
+/// something. On USB the number never changes.
 std::uint32_t bus_generation(const OpenCamera& camera);
 
-/// Where a camera on USB is plugged in; empty if it is on FireWire or cannot be found.
+/// The port of a camera on USB; empty if it is on FireWire or cannot be found.
 std::string usb_port_of(const OpenCamera& camera);
 
 }  // namespace azimuth::iidc

@@ -13,18 +13,17 @@
 namespace azimuth::iidc {
 namespace {
 
-constexpr std::array kFeatureIds{DC1394_FEATURE_BRIGHTNESS,    DC1394_FEATURE_EXPOSURE,   DC1394_FEATURE_SHUTTER,
-                                 DC1394_FEATURE_GAIN,          DC1394_FEATURE_IRIS,       DC1394_FEATURE_FOCUS,
-                                 DC1394_FEATURE_WHITE_BALANCE, DC1394_FEATURE_SATURATION, DC1394_FEATURE_GAMMA,
-                                 DC1394_FEATURE_SHARPNESS};
+constexpr std::array kFeatureIds{DC1394_FEATURE_BRIGHTNESS, DC1394_FEATURE_EXPOSURE, DC1394_FEATURE_SHUTTER,
+                                 DC1394_FEATURE_GAIN,       DC1394_FEATURE_FOCUS,    DC1394_FEATURE_WHITE_BALANCE,
+                                 DC1394_FEATURE_GAMMA,      DC1394_FEATURE_SHARPNESS};
 static_assert(kFeatureIds.size() == std::size(kFeatureTexts));
 
-/// An absolute value may be rounded to what the sensor can do.
+/// Relative tolerance, because the camera may round an absolute value to one that the sensor supports.
 constexpr double kSameAbsolute = 0.05;
 
-using Refusal = std::optional<std::string>;  // what is to be said of the feature
+using Refusal = std::optional<std::string>;  // a sentence about the feature; none: success
 
-/// One feature of one camera. Each step returns what went wrong; nothing: it worked.
+/// One feature of one camera. Each step returns what went wrong; none: success.
 class Feature {
  public:
   Feature(dc1394camera_t* camera, dc1394feature_t id) : camera_(camera), id_(id) {}

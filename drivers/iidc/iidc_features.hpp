@@ -1,5 +1,5 @@
 #pragma once
-// Exposure, gain and the like. Internal to drivers/iidc.
+// Exposure, gain and other features. Internal to drivers/iidc.
 
 #include <string>
 #include <vector>
@@ -8,9 +8,8 @@
 
 namespace azimuth::iidc {
 
-/// Sets every feature that the settings name and reads it back; what differs becomes a sentence in `refused`. No
-/// feature is worth refusing the camera.
-/// Thread contract: reentrant, for different cameras.
+/// Sets every feature that the settings name, and reads it back. Each difference becomes a sentence in `refused`; it
+/// never makes the camera unusable. Thread contract: reentrant, for different cameras.
 void set_features(const OpenCamera& camera, const IidcSettings& settings, std::vector<std::string>& refused);
 
 }  // namespace azimuth::iidc

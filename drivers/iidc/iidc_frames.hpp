@@ -13,16 +13,16 @@
 
 namespace azimuth::iidc {
 
-/// Buffers of our own for images. Thread contract: that of FramePool.
+/// The driver's own buffers for images. Thread contract: as for FramePool.
 class IidcFrames : public FramePool {
  public:
-  /// Enough for those that a driver holds unread and those on their way to perception.
+  /// Enough for the images that a driver holds unread and those on their way to perception.
   static constexpr unsigned kSlots = 10;
 
   explicit IidcFrames(const FrameFormat& format)
       : FramePool(UniqueFd{}), bytes_(format.bytes()), memory_(kSlots * bytes_) {}
 
-  /// A buffer that nobody leases; it stays free until lease().
+  /// A buffer that is not leased. It stays free until lease().
   std::optional<unsigned> free_slot() {
     free_ |= take_returned();
     return free_ == 0 ? std::nullopt : std::optional(static_cast<unsigned>(std::countr_zero(free_)));

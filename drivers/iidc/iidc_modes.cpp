@@ -35,7 +35,7 @@ constexpr std::array kFixedModes{
 struct Coding {
   dc1394color_coding_t coding;
   std::string_view name;
-  int preference;  // where colour is wanted
+  int preference;  // result of preference() when colour is wanted
 };
 constexpr std::array kCodings{
     Coding{DC1394_COLOR_CODING_MONO8, "mono8", 1},   Coding{DC1394_COLOR_CODING_YUV411, "yuv411", 0},

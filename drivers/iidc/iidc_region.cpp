@@ -19,7 +19,7 @@ class RegionSetter {
     dc1394color_coding_t coding = DC1394_COLOR_CODING_MONO8;
     Region region;
     if (!choose_coding(coding)) return false;
-    // First: largest size and smallest steps depend on it in some cameras.
+    // The coding is set first, because in some cameras the largest size and the units depend on it.
     if (!work_.check(dc1394_format7_set_color_coding(work_.handle(), mode_, coding), "setting its colour coding"))
       return false;
     if (!choose_region(coding, region)) return false;
@@ -49,7 +49,7 @@ class RegionSetter {
                      "asking for its colour codings"))
       return false;
     const std::span all(codings.codings, std::min<std::size_t>(codings.num, DC1394_COLOR_CODING_NUM));
-    const auto wish = coding_named(work_.settings.colour_coding);  // "auto" is none
+    const auto wish = coding_named(work_.settings.colour_coding);  // none for "auto"
     const auto by_preference = [this](auto one) { return preference(one, work_.settings.wants_colour); };
     const auto chosen = wish ? std::ranges::find(all, *wish) : std::ranges::max_element(all, {}, by_preference);
     if (chosen != all.end() && is_readable(*chosen)) {
@@ -63,7 +63,7 @@ class RegionSetter {
         ENOTSUP);
   }
 
-  /// The wish, rounded to what the camera's units allow.
+  /// Rounds the requested region to the camera's units.
   bool choose_region(dc1394color_coding_t coding, Region& region) {
     std::uint32_t max_width = 0, max_height = 0, unit_width = 0, unit_height = 0, unit_left = 0, unit_top = 0;
     if (!work_.check(dc1394_format7_get_max_image_size(work_.handle(), mode_, &max_width, &max_height),
@@ -75,7 +75,8 @@ class RegionSetter {
     if (!work_.check(dc1394_format7_get_unit_position(work_.handle(), mode_, &unit_left, &unit_top),
                      "asking for its units"))
       return false;
-    if (coding == DC1394_COLOR_CODING_RAW8) {  // else the colours of the filter would change places
+    // The region must start at an even pixel, or the filter's colours would be exchanged.
+    if (coding == DC1394_COLOR_CODING_RAW8) {
       unit_left = std::max(unit_left, 1U) * (unit_left % 2 + 1);
       unit_top = std::max(unit_top, 1U) * (unit_top % 2 + 1);
     }
@@ -125,7 +126,8 @@ class RegionSetter {
     return pixels;
   }
 
-  /// By the camera's own feature where it has one, else by the size of packets, which are sent at a fixed pace.
+  /// Sets the rate by the camera's own feature if it has one, otherwise by the size of packets, which are sent at a
+  /// fixed rate.
   bool set_scalable_rate() {
     if (work_.settings.rate_hz <= 0) return true;
     dc1394feature_info_t info{};
@@ -133,7 +135,8 @@ class RegionSetter {
     if (dc1394_feature_get(work_.handle(), &info) == DC1394_SUCCESS && info.available != DC1394_FALSE &&
         info.absolute_capable != DC1394_FALSE && set_rate_feature())
       return true;
-    if (work_.settings.packet_bytes > 0 || work_.camera.on_usb) return true;  // compared once the interval is known
+    // The rate is compared once the interval is known.
+    if (work_.settings.packet_bytes > 0 || work_.camera.on_usb) return true;
     std::uint32_t unit_bytes = 0, max_bytes = 0;
     if (!work_.check(dc1394_format7_get_packet_parameters(work_.handle(), mode_, &unit_bytes, &max_bytes),
                      "asking for its packets"))
@@ -162,7 +165,7 @@ class RegionSetter {
     if (work_.setup.rate_hz <= 0 && !work_.camera.on_usb &&
         dc1394_format7_get_packets_per_frame(work_.handle(), mode_, &packets) == DC1394_SUCCESS && packets > 0)
       work_.setup.rate_hz = kPacketsPerSecond / packets;
-    // What the camera says itself includes its exposure.
+    // The interval that the camera reports includes its exposure time.
     if (dc1394_format7_get_frame_interval(work_.handle(), mode_, &interval_s) == DC1394_SUCCESS && interval_s > 0.0F &&
         std::isfinite(interval_s))
       work_.setup.rate_hz = 1.0 / static_cast<double>(interval_s);
@@ -186,7 +189,8 @@ AxisChoice choose_axis(int size_px, int place_px, const AxisLimits& limits) {
   AxisChoice choice;
   if (size_px > 0)
     choice.size = rounded(std::clamp(wish(size_px), std::min(unit, limits.largest), limits.largest), unit);
-  // A size that is wished for goes before the place; one that is not is what the place leaves, one unit at least.
+  // A requested size takes precedence over the place. Without one, the size is what the place leaves, at least one
+  // unit.
   const std::uint32_t taken = std::min(limits.largest, std::max(choice.size, unit));
   choice.place = rounded(std::min(wish(place_px), limits.largest - taken), place_unit);
   if (size_px <= 0) choice.size = rounded(limits.largest - choice.place, unit);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kFastestLegacy_mbps = 400;
 
-/// The steps in their order.
+/// Performs the steps in order.
 class ImageSetter {
  public:
   explicit ImageSetter(SetupWork work) : work_(std::move(work)) {}
@@ -34,7 +34,8 @@ class ImageSetter {
     return std::to_string(work_.setup.format.width_px) + "x" + std::to_string(work_.setup.format.height_px);
   }
 
-  /// A camera goes on sending when the program that asked for it has crashed, and takes no settings meanwhile.
+  /// Stops the transmission. A camera continues to send after the program that started it has crashed, and accepts no
+  /// settings meanwhile.
   bool stop_transmission() {
     dc1394switch_t sending = DC1394_OFF;
     if (!work_.check(dc1394_video_get_transmission(work_.handle(), &sending), "asking whether it sends")) return false;
@@ -42,7 +43,7 @@ class ImageSetter {
            work_.check(dc1394_video_set_transmission(work_.handle(), DC1394_OFF), "stopping it");
   }
 
-  /// Nothing that keeps the camera from being used.
+  /// Sets the bus speed. A failure is reported, but does not keep the camera from being used.
   bool set_speed() {
     const int wish_mbps = work_.settings.iso_speed_mbps;
     if (work_.camera.on_usb || wish_mbps == 0) return true;
@@ -86,9 +87,10 @@ class ImageSetter {
     return true;
   }
 
-  /// The modes of fixed size before Format 7, whose first mode is the whole sensor: they are the ones with a rate.
+  /// Prefers modes of fixed size to Format 7, because they have a rate. The first mode of Format 7 covers the whole
+  /// sensor.
   bool choose_best_mode() {
-    using Merit = std::tuple<bool, int, int>;  // fast enough, pixels, colours
+    using Merit = std::tuple<bool, int, int>;  // fast enough, pixels, preference of the coding
     std::optional<Merit> best;
     for (const dc1394video_mode_t mode : modes()) {
       const auto fixed = wants_region() ? std::nullopt : fixed_mode(mode);
@@ -129,7 +131,7 @@ class ImageSetter {
     return set_fixed_rate();
   }
 
-  /// The nearest rate that the mode has, or the fastest.
+  /// Sets the mode's rate that is nearest to the requested one, or the fastest.
   bool set_fixed_rate() {
     dc1394framerates_t rates{};
     if (!work_.check(dc1394_video_get_supported_framerates(work_.handle(), mode_, &rates), "asking for its rates"))

@@ -1,6 +1,6 @@
 #pragma once
-// Settings to a camera that is about to take images as they say. Internal to drivers/iidc.
-// Thread contract: reentrant, for different cameras.
+// Applies the image settings to a camera before it starts. Internal to drivers/iidc. Thread contract: reentrant, for
+// different cameras.
 
 #include <optional>
 #include <string>
@@ -11,33 +11,33 @@
 
 namespace azimuth::iidc {
 
-/// What became of the settings.
+/// The result of applying the settings.
 struct ImageSetup {
   FrameFormat format{};
   double rate_hz = 0.0;              ///< 0: unknown
-  std::vector<std::string> refused;  ///< settings not had, one sentence each
+  std::vector<std::string> refused;  ///< settings that were refused, one sentence each
 };
 
-/// Mode, region of interest, rate and speed of the bus. Stops what a program before us has left running. Nothing: it
-/// cannot be, and `trouble` says why.
+/// Sets the mode, region of interest, rate and bus speed. Stops a transmission that an earlier program left running.
+/// None: it is not possible, and `trouble` tells why.
 std::optional<ImageSetup> set_up_image(const OpenCamera& camera, const IidcSettings& settings, CameraTrouble& trouble);
 
-/// What a Format 7 mode allows along one axis, in pixels. Units of 0 count as 1.
+/// The limits of a Format 7 mode along one axis, in pixels. A unit of 0 counts as 1.
 struct AxisLimits {
   std::uint32_t largest = 0;
   std::uint32_t size_unit = 1;
   std::uint32_t place_unit = 1;
 };
-/// Both multiples of their units, and together within `largest`.
+/// A place and a size along one axis. Both are multiples of their units, and their sum is at most `largest`.
 struct AxisChoice {
   std::uint32_t place = 0;
   std::uint32_t size = 0;
 };
-/// The wish rounded down to what is possible; size 0: as large as the place allows.
+/// Rounds the requested values down to possible ones. Size 0: as large as the place allows.
 AxisChoice choose_axis(int size_px, int place_px, const AxisLimits& limits);
 
-/// Bytes a packet must have for `rate_hz` images of `image_bytes` a second, with 8000 packets a second: a multiple of
-/// `unit_bytes`, no more than `max_bytes`.
+/// Bytes of a packet for `rate_hz` images of `image_bytes` per second, at 8000 packets per second. The result is a
+/// multiple of `unit_bytes`, at most `max_bytes`.
 std::uint32_t packet_bytes_for(double rate_hz, std::uint64_t image_bytes, std::uint32_t unit_bytes,
                                std::uint32_t max_bytes);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the steps of setting up a camera share. Internal to drivers/iidc.
+// The state shared by the steps that set up a camera. Internal to drivers/iidc.
 
 #include <array>
 #include <cmath>
@@ -12,14 +12,14 @@
 
 namespace azimuth::iidc {
 
-/// "7.5", "29.97".
+/// A number in short form, e.g. "7.5" or "29.97".
 inline std::string short_number(double value) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.4g", value);
   return text.data();
 }
 
-/// A camera on its way to images. Steps return false when it cannot be used; then `trouble` says why.
+/// A camera during its setup. The steps return false when it cannot be used; `trouble` then tells why.
 struct SetupWork {
   static constexpr double kSameRate = 0.02;
 
@@ -40,7 +40,7 @@ struct SetupWork {
   }
   void tell(std::string sentence) { setup.refused.push_back(std::move(sentence)); }
 
-  /// Whether the rate that was agreed is the one that was wished for.
+  /// Reports a difference between the agreed rate and the requested one.
   void compare_rate() {
     if (settings.rate_hz <= 0 || std::abs(setup.rate_hz - settings.rate_hz) <= kSameRate * settings.rate_hz) return;
     tell("rate_hz " + short_number(settings.rate_hz) + ": is " +
@@ -48,7 +48,7 @@ struct SetupWork {
   }
 };
 
-/// Colour coding, region of interest and rate of a Format 7 mode that is set already.
+/// Sets the colour coding, region of interest and rate of a Format 7 mode that is already selected.
 bool set_up_region(SetupWork& work, dc1394video_mode_t mode);
 
 }  // namespace azimuth::iidc

@@ -7,8 +7,8 @@ namespace azimuth::iidc {
 namespace {
 
 constexpr std::int64_t kOldest_us = 10'000'000;
-/// Between two readings the clocks may part by this without a step: the reading takes time, and the wall clock is
-/// slewed by up to 500 ppm.
+/// Tolerance for the difference of the clocks between two readings without a step: the reading takes time, and the wall
+/// clock is slewed by up to 500 ppm.
 constexpr std::int64_t kReadingError_us = 2000;
 constexpr std::int64_t kSlewDivisor = 1000;
 
@@ -28,7 +28,7 @@ void StampClock::watch_for_step(const ClockReading& now) {
 
 Stamp StampClock::monotonic(std::uint64_t wall_us, const ClockReading& now) {
   watch_for_step(now);
-  const std::uint64_t age_us = static_cast<std::uint64_t>(now.wall_us) - wall_us;  // huge if it is negative
+  const std::uint64_t age_us = static_cast<std::uint64_t>(now.wall_us) - wall_us;  // huge if negative
   const bool believed = !stepped_ && age_us <= static_cast<std::uint64_t>(kOldest_us);
   return stamp_from_us(now.monotonic_us - (believed ? static_cast<std::int64_t>(age_us) : 0));
 }
@@ -38,7 +38,8 @@ void StampClock::drained(const ClockReading& now) {
   stepped_ = false;
 }
 
-/// The mean of a steady row is as good as its length: a short one only corrects what is plainly wrong.
+/// The mean over a steady series is as accurate as the series is long, so a short series corrects only
+/// large errors.
 void FrameCounter::learn(double before_us, double now_us) {
   const double row_us = before_us - steady_since_us_;
   const bool steady =
@@ -65,7 +66,7 @@ std::uint64_t FrameCounter::next(Stamp stamp) {
   const double intervals = interval_us_ > 0 ? std::round((now_us - expected_us_) / interval_us_) : 1.0;
   const double counted = std::max(intervals, 1.0);
   sequence_ += static_cast<std::uint64_t>(counted);
-  // The expectation follows the frames slowly, so that one that is late does not make the next one look early.
+  // The expectation follows the frames slowly, so that a late frame does not make the next one appear early.
   expected_us_ += counted * interval_us_;
   const double late_us = now_us - expected_us_;
   expected_us_ += std::abs(late_us) < interval_us_ / 2 ? kFollowing * late_us : late_us;

@@ -18,7 +18,8 @@ namespace azimuth {
 namespace iidc {
 namespace {
 
-/// As if at once: a reading that was interrupted would look like a step of the wall clock, and is taken again.
+/// Reads both clocks practically at once. An interrupted reading would look like a step of the wall clock, so it is
+/// repeated.
 ClockReading read_clocks() {
   constexpr int kAttempts = 3;
   constexpr std::int64_t kAtOnce_us = 100;
@@ -33,7 +34,7 @@ ClockReading read_clocks() {
   return reading;
 }
 
-/// The ring of libdc1394, filled by the camera from start() to destruction.
+/// The ring of libdc1394, filled by the camera from start() until destruction.
 class Capture {
  public:
   explicit Capture(dc1394camera_t* camera) : camera_(camera) {}
@@ -52,10 +53,10 @@ class Capture {
     return error;
   }
 
-  // What fails here fails because the camera has gone.
+  // A failure here means that the camera has gone.
   ~Capture() {
     if (sending_) dc1394_video_set_transmission(camera_, DC1394_OFF);
-    // On FireWire, without the camera, the library gives up before it closes the descriptor.
+    // On FireWire, when the camera has gone, the library stops before it closes the descriptor.
     if (set_up_ && dc1394_capture_stop(camera_) == DC1394_IOCTL_FAILURE && descriptor_ >= 0) ::close(descriptor_);
   }
 
@@ -71,7 +72,7 @@ class IidcStream : public ImageStream {
  public:
   explicit IidcStream(OpenCamera camera) : camera_(std::move(camera)), capture_(camera_.get()), clock_(read_clocks()) {}
 
-  /// False: trouble() says why.
+  /// False: trouble() tells why.
   bool open(const IidcSettings& settings) {
     const std::optional<ImageSetup> setup = set_up_image(camera_, settings, trouble_);
     if (!setup) return false;
@@ -99,7 +100,7 @@ class IidcStream : public ImageStream {
   bool is_damaged(const dc1394video_frame_t& raw);
 
   OpenCamera camera_;
-  Capture capture_;  // goes before the camera
+  Capture capture_;  // destroyed before the camera
   StreamDescription description_;
   CameraTrouble trouble_;
   std::shared_ptr<IidcFrames> frames_;
@@ -142,21 +143,21 @@ bool IidcStream::has_event() const {
 
 ImageStream::Read IidcStream::read(Frame& into) {
   into = Frame{};
-  // Bounded, whatever the camera does: as many as can have waited.
+  // The loop is bounded by the number of frames that can have waited.
   for (int frames = 0; !failed_ && frames < ring_frames_; ++frames) {
     const bool event = has_event();
     dc1394video_frame_t* raw = nullptr;
     if (!check(dc1394_capture_dequeue(camera_.get(), DC1394_CAPTURE_POLICY_POLL, &raw), "taking a frame off")) break;
     if (raw == nullptr) return without_frame(event);
     const Read result = take(*raw, into);
-    // Should that fail the image is still good, and the next call tells.
+    // If this fails, the image is still valid, and the next call reports the failure.
     check(dc1394_capture_enqueue(camera_.get(), raw), "giving a frame back");
     if (result != Read::nothing) return result;
   }
   return failed_ ? Read::failed : Read::nothing;
 }
 
-/// An event that is no frame is a bus reset, on FireWire. The library learns of it when the camera is asked something.
+/// On FireWire, an event without a frame is a bus reset. The library learns of it when the camera is asked something.
 ImageStream::Read IidcStream::without_frame(bool was_event) {
   clock_.drained(read_clocks());
   if (!was_event) return Read::nothing;
@@ -177,7 +178,7 @@ bool IidcStream::is_damaged(const dc1394video_frame_t& raw) {
          std::cmp_not_equal(raw.size[1], format.height_px) || raw.image_bytes < format.bytes();
 }
 
-/// `nothing`: there was no buffer for it.
+/// `nothing`: there was no free buffer for the frame.
 ImageStream::Read IidcStream::take(const dc1394video_frame_t& raw, Frame& into) {
   const Stamp stamp = clock_.monotonic(raw.timestamp, read_clocks());
   const std::uint64_t sequence = counter_.next(stamp);

@@ -46,7 +46,7 @@ std::optional<double> parse_absolute(std::string_view text, FeatureUnit unit) {
   return std::nullopt;
 }
 
-/// What every feature understands.
+/// The words that every feature accepts.
 std::optional<FeatureWish> parse_word(std::string_view text) {
   using Kind = FeatureWish::Kind;
   if (text == "keep") return FeatureWish{Kind::keep};

@@ -7,8 +7,8 @@
 
 namespace azimuth::iidc {
 
-/// The port, as sysfs names it ("1-2.3"), of the USB device with this bus number and address. Empty: there is none.
-/// `devices` is /sys/bus/usb/devices or, in a test, a folder like it.
+/// The port (its name in sysfs, "1-2.3") of the USB device with this bus number and address. Empty: there is none.
+/// `devices` is /sys/bus/usb/devices, or a similar folder in tests.
 std::string usb_port_of(std::uint32_t bus, std::uint32_t address, const std::filesystem::path& devices);
 
 }  // namespace azimuth::iidc

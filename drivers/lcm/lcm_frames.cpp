@@ -9,7 +9,7 @@
 
 namespace azimuth {
 
-/// Untouched memory costs nothing, unless the process is locked in memory.
+/// The memory of the slots. Untouched pages cost nothing, unless the process is locked in memory.
 struct LcmFrames::Pool : FramePool {
   explicit Pool(std::size_t bytes)
       : FramePool(UniqueFd{}), slot_bytes(bytes), memory(std::make_unique_for_overwrite<std::byte[]>(bytes * kSlots)) {}
@@ -47,7 +47,7 @@ void LcmFrames::begin(const LcmPacket& packet, LcmPeer sender, const LcmReceipt&
     ++counts_.other_senders;
     return;
   }
-  if (packet.parts > 1 && find(packet, sender)) return;  // the same once more
+  if (packet.parts > 1 && find(packet, sender)) return;  // a repeated first part
   ++begun_;
   if (packet.size > slot_bytes_ || packet.parts > kMaxParts) {
     ++counts_.too_large;
@@ -72,8 +72,8 @@ void LcmFrames::begin(const LcmPacket& packet, LcmPeer sender, const LcmReceipt&
   add(packet, partial);
 }
 
-/// One place for each sender, the place of the oldest if there is none: a sender's messages come one after another, so
-/// that an unfinished one will stay so.
+/// Returns the place of the sender's message, or else a free place, or else the place of the oldest message. A sender's
+/// messages come one after another, so an unfinished one stays incomplete.
 LcmFrames::Partial& LcmFrames::place_for(LcmPeer sender) {
   auto place = std::ranges::find_if(partials_, [&](const Partial& each) { return each.used && each.sender == sender; });
   if (place == partials_.end()) place = std::ranges::find(partials_, false, &Partial::used);
@@ -98,7 +98,7 @@ void LcmFrames::give_up(Partial& partial) {
   partial.used = false;
 }
 
-/// Parts that contradict what the first one said, or come twice, are left out.
+/// Parts that are inconsistent with the first one, or arrive twice, are ignored.
 void LcmFrames::add(const LcmPacket& packet, Partial& partial) {
   if (packet.size != partial.size || packet.parts != partial.parts || partial.there.test(packet.part)) return;
   partial.there.set(packet.part);
@@ -115,7 +115,7 @@ void LcmFrames::finish(Partial& partial) {
   }
 }
 
-/// False: it is dropped, and its slot free again.
+/// False: the message is dropped, and its slot is free again.
 bool LcmFrames::hand_on(const Partial& partial) {
   const Bytes bytes = pool_->slot(partial.slot).first(partial.size);
   const std::optional<ImageMessage> message = partial.bytes == partial.size ? decode_image(bytes) : std::nullopt;
@@ -127,7 +127,7 @@ bool LcmFrames::hand_on(const Partial& partial) {
     ++counts_.unsupported;
     return false;
   }
-  if (!senders_.would_accept(partial.sender, partial.receipt.stamp)) {  // another was faster
+  if (!senders_.would_accept(partial.sender, partial.receipt.stamp)) {  // another sender has taken over meanwhile
     ++counts_.other_senders;
     return false;
   }

@@ -13,43 +13,46 @@
 
 namespace azimuth {
 
-/// What became of the messages on the frames' channel.
+/// The counters of messages on the frames' channel.
 struct LcmFrameCounts {
-  std::uint64_t frames = 0;         ///< handed on
-  std::uint64_t incomplete = 0;     ///< parts of them never came
-  std::uint64_t malformed = 0;      ///< no images, or images that cannot be
-  std::uint64_t unsupported = 0;    ///< of a pixel format that nothing here can read
-  std::uint64_t too_large = 0;      ///< for the memory set aside
-  std::uint64_t no_room = 0;        ///< all of that was leased
-  std::uint64_t other_senders = 0;  ///< not listened to
-  std::uint64_t replaced = 0;       ///< a newer one came before they were taken
+  std::uint64_t frames = 0;         ///< delivered frames
+  std::uint64_t incomplete = 0;     ///< images of which some parts never arrived
+  std::uint64_t malformed = 0;      ///< messages that are not valid images
+  std::uint64_t unsupported = 0;    ///< images in an unsupported pixel format
+  std::uint64_t too_large = 0;      ///< images larger than the reserved memory
+  std::uint64_t no_room = 0;        ///< images dropped because all slots were leased
+  std::uint64_t other_senders = 0;  ///< messages of senders that are ignored
+  std::uint64_t replaced = 0;       ///< frames replaced by a newer one before they were taken
 };
 
-/// Images that another process sends: image_t, as of bot_core. Put together in the memory that they are then leased in.
+/// Images that another process sends, as bot_core's image_t. The images are assembled in the memory that is then
+/// leased.
 ///
-/// The sequence numbers of frames count what was begun to arrive: an image of which parts were lost is a gap. LCM
-/// itself does not number images, so one of which nothing arrived is no gap.
+/// The sequence numbers count the images of which at least one part arrived, so an image with lost parts shows as a
+/// gap. LCM itself does not number images, so an image that was lost completely shows no gap.
 ///
-/// Thread contract: thread-bound; frames may die elsewhere, and later. Allocates only to be made.
+/// Thread contract: thread-bound; frames may be destroyed on any thread, and later. Allocates only on construction.
 class LcmFrames final : public LcmSink {
  public:
-  static constexpr unsigned kSlots = 6;  ///< two come in, one waits, one is on its way, one is looked at
+  /// Two frames arrive, one waits, one is on its way, one is being processed, and one slot is spare.
+  static constexpr unsigned kSlots = 6;
   static constexpr std::size_t kMaxParts = 1024;
 
   explicit LcmFrames(const LcmSourceSettings& settings);
 
   void accept(const LcmPacket& packet, LcmPeer sender, const LcmReceipt& receipt) override;
-  /// The newest frame, if it was not taken yet. What `into` held is released first. False: none, `into` unchanged.
+  /// Takes the newest frame if it was not taken yet, and releases the previous contents of `into`. False: there is
+  /// none, `into` is unchanged.
   bool take(Frame& into);
 
   const LcmFrameCounts& counts() const { return counts_; }
   const LcmStampCounts& stamp_counts() const { return stamps_.counts(); }
-  std::uint64_t senders() const { return senders_.changes(); }  ///< listened to so far
+  std::uint64_t senders() const { return senders_.changes(); }  ///< number of senders used so far
 
  private:
-  /// The slots' memory.
+  /// The memory of the slots.
   struct Pool;
-  /// A message that is on its way in.
+  /// A message that has arrived in part.
   struct Partial {
     bool used = false;
     LcmPeer sender = 0;
@@ -58,7 +61,7 @@ class LcmFrames final : public LcmSink {
     std::bitset<kMaxParts> there;
     unsigned slot = 0;
     std::uint64_t sequence = 0;
-    LcmReceipt receipt;  // of its first part
+    LcmReceipt receipt;  // receipt of its first part
   };
 
   void begin(const LcmPacket& packet, LcmPeer sender, const LcmReceipt& receipt);
@@ -73,7 +76,7 @@ class LcmFrames final : public LcmSink {
   std::string channel_;
   std::size_t slot_bytes_;
   std::shared_ptr<Pool> pool_;
-  std::uint32_t free_;  // slots, one bit each
+  std::uint32_t free_;  // free slots, one bit each
   LcmSenderChoice senders_;
   LcmStamps stamps_;
   std::array<Partial, 2> partials_;

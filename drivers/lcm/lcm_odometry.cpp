@@ -10,15 +10,15 @@
 namespace azimuth {
 namespace {
 
-/// A gap beyond this is a restart as well.
+/// A gap in the sequence numbers larger than this counts as a restart.
 constexpr std::uint64_t kMaxGap = 100'000;
 
-// What a robot may have done while nobody listened to its odometry: deviation per metre and radian of the way.
+// Standard deviation per metre and radian of the motion while the odometry was not received.
 constexpr double kHiddenPath = 0.05;
 constexpr double kIndoorSpeed_m_s = 1.0, kIndoorTurn_rad_s = 1.0;
 
 constexpr std::string_view kOdometer = "lcm ";
-constexpr std::size_t kSender = 0, kIsBotPose = 1, kSequence = 2, kOrigin = 3;  // of the numbers kept
+constexpr std::size_t kSender = 0, kIsBotPose = 1, kSequence = 2, kOrigin = 3;  // indices in OdometerMemory::numbers
 
 Duration seconds(double seconds) { return duration_from_seconds(seconds); }
 
@@ -58,7 +58,7 @@ bool LcmOdometry::decode(Bytes message, Said& said) {
 
 void LcmOdometry::follow(const Said& said, bool is_new_sender) {
   const std::uint64_t step = said.reading.sequence - last_said_.reading.sequence;
-  const bool counted = !said.is_bot_pose && step != 0;  // some senders never count
+  const bool counted = !said.is_bot_pose && step != 0;  // some senders do not count
   const bool unheard = std::exchange(restored_, false);
   const Duration silence = said.reading.stamp - last_said_.reading.stamp;
   std::uint64_t missing = 0;
@@ -87,7 +87,7 @@ void LcmOdometry::follow(const Said& said, bool is_new_sender) {
   if (!readings_.push(reading_)) ++counts_.replaced;
 }
 
-/// The sender is sure where the robot came to, but not how.
+/// Adds the uncertainty of a silence: the sender knows the pose that the robot reached, but not its path.
 void LcmOdometry::charge_silence(Duration silence) {
   const double hidden_s = kHiddenPath * to_seconds(silence);
   reading_.sigma_gap_m = std::hypot(reading_.sigma_gap_m, kIndoorSpeed_m_s * hidden_s);
@@ -124,7 +124,7 @@ void LcmOdometry::restore(const OdometerMemory& memory) {
   restored_ = true;
 }
 
-/// Of the same sender, which says so.
+/// True: the same sender announces a new origin.
 bool LcmOdometry::begins_anew(const Said& said) const {
   const OdometryReading &now = said.reading, &before = last_said_.reading;
   return said.is_bot_pose != last_said_.is_bot_pose || now.origin != before.origin;

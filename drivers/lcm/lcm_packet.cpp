@@ -10,14 +10,14 @@ namespace {
 constexpr std::uint32_t kWhole = 0x4c433032, kPart = 0x4c433033;  // "LC02", "LC03"
 constexpr std::size_t kWholeHeader = 8, kPartHeader = 20;
 
-/// Of `size` bytes, big-endian, all there.
+/// The big-endian number of `size` bytes, which must be present.
 std::uint32_t number_at(Bytes data, std::size_t at, std::size_t size) {
   std::uint32_t number = 0;
   for (const std::byte byte : data.subspan(at, size)) number = (number << 8U) | std::to_integer<std::uint32_t>(byte);
   return number;
 }
 
-/// A text that ends with a zero, which is taken off as well.
+/// Takes a zero-terminated text from the beginning of `data`, with its zero.
 std::optional<std::string_view> take_channel(Bytes& data) {
   const Bytes room = data.first(std::min(data.size(), kMaxChannelLength + 1));
   const auto end = std::ranges::find(room, std::byte{0});

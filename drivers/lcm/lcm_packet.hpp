@@ -1,6 +1,6 @@
 #pragma once
-// LCM's datagrams. liblcm is not used to receive: a crafted fragment makes it write outside its buffers, and it keeps
-// whatever sizes the sender claims.
+// LCM's datagrams. liblcm is not used for receiving, because a crafted fragment makes it write outside its buffers, and
+// because it reserves any size that a sender claims.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,18 +13,18 @@ namespace azimuth {
 
 /// One datagram: a whole message, or a part of one. Borrows the datagram's bytes.
 struct LcmPacket {
-  std::uint32_t sequence = 0;  ///< counts messages of the sender, on all channels together
-  std::string_view channel;    ///< of a whole message, or of a first part; else empty
+  std::uint32_t sequence = 0;  ///< counts messages of the sender on all channels together
+  std::string_view channel;    ///< set for a whole message or a first part; otherwise empty
   Bytes payload;               ///< bytes of the message from `offset` on
-  std::uint32_t size = 0;      ///< of the message
+  std::uint32_t size = 0;      ///< size of the message
   std::uint32_t offset = 0;    ///< offset + payload.size() <= size
-  std::uint16_t part = 0;      ///< number of this one, below `parts`
+  std::uint16_t part = 0;      ///< number of this part, below `parts`
   std::uint16_t parts = 1;     ///< 1: the message is whole
 };
 
 inline constexpr std::size_t kMaxDatagram = 65536;
 
-/// Nothing when the bytes are no datagram of LCM, or contradict themselves. Thread contract: reentrant.
+/// None when the bytes are not a datagram of LCM, or are inconsistent. Thread contract: reentrant.
 std::optional<LcmPacket> decode_lcm_packet(Bytes datagram);
 
 }  // namespace azimuth

@@ -19,7 +19,7 @@ using namespace std::chrono_literals;
 
 constexpr std::chrono::milliseconds kFirstBackOff = 50ms, kLongestBackOff = 1s;
 constexpr auto kRejoin = 5s;
-/// Asked for; images come in bursts of datagrams.
+/// The requested size of the receive buffer. It is large because images arrive in bursts of datagrams.
 constexpr int kKernelRoom_bytes = 8 << 20;
 
 template <class T>
@@ -27,7 +27,7 @@ bool set_option(int socket, int level, int option, const T& value) {
   return ::setsockopt(socket, level, option, &value, sizeof value) == 0;
 }
 
-/// What the kernel says along with a datagram.
+/// The value of a control message that belongs to a datagram.
 template <class T>
 std::optional<T> control_value(msghdr& message, int kind) {
   for (cmsghdr* control = CMSG_FIRSTHDR(&message); control; control = CMSG_NXTHDR(&message, control)) {
@@ -60,7 +60,8 @@ void LcmReceiver::turn(Clock::time_point now, LcmSink& sink) {
   for (int i = 0; i < kMaxDatagramsPerTurn && socket_ && receive(now, sink); ++i) next_turn_ = now + kRejoin;
 }
 
-/// Bound to the group, not to any address: the kernel gives no datagrams of other groups on the same port then.
+/// Binds to the group instead of any address, so that the kernel delivers no datagrams of other groups on the same
+/// port.
 void LcmReceiver::open(Clock::time_point now) {
   socket_ = UniqueFd(::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   if (!socket_) return void(fail("socket", now));
@@ -74,7 +75,7 @@ void LcmReceiver::open(Clock::time_point now) {
   if (!set_option(fd, SOL_SOCKET, SO_REUSEADDR, on)) return void(fail("share the port", now));
   if (::bind(fd, reinterpret_cast<const sockaddr*>(&place), sizeof place) < 0) return void(fail("bind", now));
   if (!set_option(fd, IPPROTO_IP, IP_ADD_MEMBERSHIP, group)) return void(fail("join the group", now));
-  // What may be missing: kernel times and counts of losses, and more room.
+  // These options may fail: the kernel's times, its counts of losses, and a larger buffer.
   set_option(fd, SOL_SOCKET, SO_TIMESTAMPNS, on);
   set_option(fd, SOL_SOCKET, SO_RXQ_OVFL, on);
   set_option(fd, SOL_SOCKET, SO_RCVBUF, kKernelRoom_bytes);
@@ -98,7 +99,7 @@ bool LcmReceiver::fail(const char* what, Clock::time_point now) {
   return false;
 }
 
-/// False: there is nothing more.
+/// False: there are no more datagrams.
 bool LcmReceiver::receive(Clock::time_point now, LcmSink& sink) {
   sockaddr_in from{};
   iovec room{.iov_base = buffer_->datagram.data(), .iov_len = buffer_->datagram.size()};
@@ -130,7 +131,8 @@ bool LcmReceiver::receive(Clock::time_point now, LcmSink& sink) {
 
 Stamp LcmReceiver::now_stamp() const { return stamp_at(Clock::now(), epoch_minus_monotonic_); }
 
-/// By the wall clock it came at `wall`. When that clock has just been set, nothing better is known than now.
+/// The datagram arrived at `wall` on the wall clock. If that clock has just been set, the current time is the best
+/// estimate.
 LcmReceipt LcmReceiver::receipt(Duration wall) {
   const Stamp before = now_stamp();
   const Stamp wall_now{now_on(CLOCK_REALTIME)};

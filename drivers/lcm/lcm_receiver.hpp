@@ -14,30 +14,31 @@ namespace azimuth {
 
 struct LcmReceiverState {
   bool open = false;
-  std::string trouble;                ///< why not; empty when it is
-  std::uint64_t datagrams = 0;        ///< received, on all channels
-  std::uint64_t malformed = 0;        ///< of them, those that are none of LCM
-  std::uint64_t kernel_dropped = 0;   ///< the kernel had no room for: this thread was slow, or rmem_max is small
-  std::size_t kernel_room_bytes = 0;  ///< that the kernel granted
+  std::string trouble;          ///< why the socket is not open; empty: it is open
+  std::uint64_t datagrams = 0;  ///< datagrams received on all channels
+  std::uint64_t malformed = 0;  ///< of these, the ones that are not LCM datagrams
+  /// Datagrams dropped by the kernel for lack of room: this thread was slow, or rmem_max is small.
+  std::uint64_t kernel_dropped = 0;
+  std::size_t kernel_room_bytes = 0;  ///< buffer size granted by the kernel
 };
 
-/// Receives what is sent to an LCM multicast group, for a thread that polls. Whoever may send to the group is believed:
-/// for trusted networks only. Anything may be sent; see LcmPacket.
+/// Receives the datagrams of an LCM multicast group, for a thread that polls. Every sender to the group is trusted, so
+/// use it only on trusted networks; invalid datagrams are safe nevertheless (see LcmPacket).
 ///
-/// The group is joined anew when nothing comes for a while: the network interface may have gone, and the membership
-/// with it.
+/// The group is joined again when nothing arrives for a while, because the network interface may have disappeared, and
+/// the membership with it.
 ///
-/// Thread contract: thread-bound. Nothing blocks; allocates only to tell of trouble.
+/// Thread contract: thread-bound. Nothing blocks; allocates only to report trouble.
 class LcmReceiver {
  public:
   using Clock = std::chrono::steady_clock;
-  static constexpr int kMaxDatagramsPerTurn = 256;  ///< a flood must not keep the thread from its other work
+  static constexpr int kMaxDatagramsPerTurn = 256;  ///< so that a flood does not keep the thread from its other work
 
-  /// Samples are dated CLOCK_MONOTONIC plus `epoch_minus_monotonic`. Opens nothing yet.
+  /// Stamps on arrival are CLOCK_MONOTONIC plus `epoch_minus_monotonic`. Does not open the socket yet.
   LcmReceiver(const LcmAddress& address, Duration epoch_minus_monotonic);
 
-  int descriptor() const { return socket_.get(); }  ///< -1: none at present. May change with every turn
-  /// When turn() is wanted without any event.
+  int descriptor() const { return socket_.get(); }  ///< to be polled; -1: none. It may change with every turn.
+  /// When turn() is needed without any event.
   Clock::time_point next_turn() const { return next_turn_; }
   void turn(Clock::time_point now, LcmSink& sink);
 
@@ -58,7 +59,7 @@ class LcmReceiver {
   Clock::time_point next_turn_{};
   BackOff back_off_;
   LcmWallLead wall_lead_;
-  std::uint32_t dropped_before_ = 0;  // as this socket counts
+  std::uint32_t dropped_before_ = 0;  // dropped datagrams counted by this socket so far
   LcmReceiverState state_;
 };
 

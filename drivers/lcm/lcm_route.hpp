@@ -3,8 +3,8 @@
 
 namespace azimuth {
 
-/// What the kernel says of the way to a group, as errno: 0 when there is one, ENETUNREACH without a network for it.
-/// Sends nothing.
+/// The errno of the kernel's route to a group: 0 when there is a route, ENETUNREACH without a network for it. Sends
+/// nothing.
 int route_error(const LcmAddress& address);
 
 }  // namespace azimuth

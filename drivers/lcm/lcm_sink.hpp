@@ -6,10 +6,10 @@
 
 namespace azimuth {
 
-/// Address and port of a sender; each process that sends has its own.
+/// Address and port of a sender. Each sending process has its own.
 using LcmPeer = std::uint64_t;
 
-/// What a receiver hands its datagrams to: whatever anybody sends to the group, on any channel.
+/// A receiver of all valid datagrams that are sent to the group, on any channel.
 ///
 /// Thread contract: thread-bound.
 class LcmSink {
@@ -18,8 +18,8 @@ class LcmSink {
   virtual void accept(const LcmPacket& packet, LcmPeer sender, const LcmReceipt& receipt) = 0;
 };
 
-/// Listens to one sender of a channel at a time: samples of two, mixed, would make no sense. Another may take over when
-/// the present one has been silent: so one that restarts is heard again.
+/// Selects one sender of a channel at a time, because mixed samples of two senders make no sense. Another sender may
+/// take over when the current one has been silent; so a restarted sender is received again.
 ///
 /// Thread contract: thread-bound.
 class LcmSenderChoice {
@@ -29,7 +29,7 @@ class LcmSenderChoice {
   bool would_accept(LcmPeer sender, Stamp now) const {
     return changes_ == 0 || sender == sender_ || now - heard_ >= silent_after_;
   }
-  /// Something good came from a sender that would be accepted. True: it is another one than before.
+  /// To be called with a valid message of a sender that would_accept() accepts. True: the sender has changed.
   bool heard(LcmPeer sender, Stamp now) {
     const bool is_new = changes_ == 0 || sender != sender_;
     if (is_new) ++changes_;
@@ -37,14 +37,14 @@ class LcmSenderChoice {
     heard_ = now;
     return is_new;
   }
-  /// That sender is the present one; nobody has listened to it since `heard`.
+  /// Makes `sender` the current one; its last message was at `heard`.
   void resume(LcmPeer sender, Stamp heard) {
     sender_ = sender;
     heard_ = heard;
     changes_ = 1;
   }
   LcmPeer sender() const { return sender_; }          ///< requires changes()
-  std::uint64_t changes() const { return changes_; }  ///< the first sender included
+  std::uint64_t changes() const { return changes_; }  ///< number of senders so far, including the first
 
  private:
   Duration silent_after_;

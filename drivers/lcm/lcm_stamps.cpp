@@ -16,7 +16,7 @@ std::optional<Stamp> LcmStamps::judge(Stamp said, const LcmReceipt& receipt) {
 }
 
 std::optional<Stamp> LcmStamps::by_sender(Stamp said, const LcmReceipt& receipt) {
-  // Far ones first: with them the differences below could overflow.
+  // Distant times are handled first, because the differences below could overflow with them.
   if (to_us(said) < 0) return misdated(counts_.too_old, said, receipt);
   if (!is_plausible_stamp(to_us(said))) return misdated(counts_.in_future, said, receipt);
   const Stamp stamp = said - receipt.wall_lead;

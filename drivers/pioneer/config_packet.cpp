@@ -9,7 +9,7 @@
 namespace azimuth::pioneer {
 namespace {
 
-/// In their order on the wire, for reading as for writing. False: not all done.
+/// Visits the fields in their order on the wire, for reading as well as for writing. False: the fields ended early.
 template <class Config, class Field>
 bool each_required(Config& c, Field field) {
   return field(c.robot_class) && field(c.subclass) && field(c.serial_number) && field(c.equipment.four_motors) &&

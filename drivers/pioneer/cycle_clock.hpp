@@ -7,11 +7,11 @@
 
 namespace azimuth::pioneer {
 
-/// When the controller began to send the packets of a cycle. It looks at its wheels once and then sends one packet
-/// after the other, so what comes last in a cycle is no younger than what comes first.
+/// Determines when the controller began to send the packets of a cycle. The controller reads its wheels once per cycle
+/// and then sends the packets one after the other, so all packets of a cycle have the same age.
 class CycleClock {
  public:
-  /// Begin on the wire of the cycle that `packet` belongs to.
+  /// The time at which the cycle of `packet` began on the wire.
   Clock::time_point start_of(const Packet& packet, Clock::duration byte_time) {
     const auto first = packet.first_byte_at;
     const bool goes_on = last_byte_at_ && first - *last_byte_at_ <= kPause && first - start_ <= kLongest;
@@ -23,7 +23,8 @@ class CycleClock {
 
  private:
   static constexpr Clock::duration kPause = std::chrono::milliseconds(5);
-  static constexpr Clock::duration kLongest = std::chrono::milliseconds(50);  // on a full line cycles have no pauses
+  // Longest time that counts as one cycle, because a fully loaded line has no pauses between cycles.
+  static constexpr Clock::duration kLongest = std::chrono::milliseconds(50);
   Clock::time_point start_{};
   std::optional<Clock::time_point> last_byte_at_;
 };

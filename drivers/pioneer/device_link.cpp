@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::string_view kTcp = "tcp:";
 
-/// "HOST:PORT" as an address.
+/// Parses "HOST:PORT".
 std::optional<sockaddr_in> parse_address(std::string_view text) {
   const std::size_t colon = text.rfind(':');
   if (colon == std::string_view::npos) return std::nullopt;

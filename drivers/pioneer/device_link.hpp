@@ -9,16 +9,16 @@
 
 namespace azimuth::pioneer {
 
-/// A serial line (raw, 8N1, exclusive, low latency where the adapter can) or a TCP connection to a serial-to-Ethernet
-/// bridge or a simulator.
+/// A serial line (raw, 8N1, exclusive, low latency if the adapter supports it), or a TCP connection to a
+/// serial-to-Ethernet bridge or a simulator.
 ///
-/// Thread contract: thread-bound; allocates only to open and to report errors.
+/// Thread contract: thread-bound; allocates only in order to open and to report errors.
 class DeviceLink final : public Link {
  public:
-  /// `device`: path of a tty, or "tcp:HOST:PORT" with an IPv4 address or "localhost" (a name would have to be looked
-  /// up, which can block). A TCP connection is still being made on return.
+  /// `device`: path of a tty, or "tcp:HOST:PORT" with an IPv4 address or "localhost" (other names would need a look-up,
+  /// which can block). A TCP connection is not yet established on return.
   static OpenedLink open(const std::string& device);
-  /// Whether `device` names a serial line, which has a baud rate.
+  /// True: `device` is a serial line, which has a baud rate.
   static bool is_serial(const std::string& device);
 
   int descriptor() const override { return fd_.get(); }

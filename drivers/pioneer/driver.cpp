@@ -16,14 +16,15 @@ using Clock = PioneerDriver::Clock;
 
 constexpr Clock::duration kFirstBackOff = 50ms, kLongestBackOff = 1s;
 constexpr Clock::duration kLongestAfterRefusal = 30s;
-constexpr Clock::duration kConnect = 1s;      // a TCP connection; the kernel asks again no sooner
-constexpr Clock::duration kLastBytes = 20ms;  // from the kernel through the adapter onto the wire
+constexpr Clock::duration kConnect = 1s;      // limit for a TCP connection; the kernel tries again no sooner
+constexpr Clock::duration kLastBytes = 20ms;  // for bytes on their way from the kernel through the adapter to the wire
 constexpr Clock::duration kIdle = 1s;
 constexpr Clock::duration kLookAtStanding = 20ms, kAskStanding = 500ms;
-// Then it is hung up on: a bridge for one client may have forgotten whose it is, and lets nobody else in.
+// Longest time for which a silent TCP connection is kept. A bridge for one client may have lost the state of the
+// connection, and accepts no other one before this is closed.
 constexpr Clock::duration kLongestStanding = 30s;
 
-/// Sleeps on `fd`, but not past `deadline`.
+/// Sleeps until `fd` is ready, a short time has passed, or `deadline` is reached.
 void wait_for(int fd, short events, Clock::time_point deadline) {
   constexpr Clock::duration kLittle = 2ms;
   const auto at_most = std::min(kLittle, deadline - Clock::now());
@@ -32,7 +33,7 @@ void wait_for(int fd, short events, Clock::time_point deadline) {
   ::ppoll(&ready, 1, &limit, nullptr);
 }
 
-/// Until the other side has all bytes, or the deadline.
+/// Sends until the other side has all bytes, or until the deadline.
 void drain(Link& link, Clock::time_point deadline) {
   while (!link.is_drained() && Clock::now() < deadline) {
     if (link.flush()) return;
@@ -127,7 +128,7 @@ void PioneerDriver::release(Clock::time_point now, Clock::duration at_most) {
   back_off_.postpone(now + at_most);
 }
 
-/// A serial line is connected when it is open.
+/// A serial line counts as connected when it is open.
 void PioneerDriver::connect(Clock::time_point now) {
   if (link_->connecting()) {
     if (const auto error = link_->finish_connecting()) return drop_link(error->text(), now);
@@ -141,7 +142,7 @@ void PioneerDriver::connect(Clock::time_point now) {
 }
 
 void PioneerDriver::read(Clock::time_point now) {
-  constexpr int kMostReads = 8;  // then let others have a turn
+  constexpr int kMostReads = 8;  // limits the work of one turn
   std::array<std::uint8_t, pioneer::PacketScanner::kRoom> bytes{};
   for (int i = 0; i < kMostReads && link_; ++i) {
     const Link::Read read = link_->read(bytes);
@@ -168,7 +169,8 @@ void PioneerDriver::take_bytes(pioneer::ByteView bytes, Clock::time_point now) {
   }
 }
 
-/// A link over which odometry came, and then nothing for long. One that comes back and falls silent at once is not.
+/// Keeps a link that has delivered odometry and then fell silent for long. A kept link that falls silent again at once
+/// is not kept.
 void PioneerDriver::keep_standing(Clock::time_point now) {
   if (!served_ || standing_ || pioneer::DeviceLink::is_serial(settings_.device)) return;
   standing_ = std::move(link_);
@@ -176,8 +178,8 @@ void PioneerDriver::keep_standing(Clock::time_point now) {
   standing_asked_ = now;
 }
 
-/// Bytes make it the one again. Until then it is asked for some now and then, with what a session takes for a sign of
-/// life and a controller that restarted for the begin of one.
+/// A byte received on the kept link makes it the active one again. Until then a SYNC0 is sent from time to time. An
+/// open session treats it as a sign of life, and a restarted controller as the start of synchronisation.
 void PioneerDriver::watch_standing(Clock::time_point now) {
   std::array<std::uint8_t, pioneer::PacketScanner::kRoom> bytes{};
   const Link::Read read = standing_->read(bytes);

@@ -22,62 +22,67 @@ namespace azimuth {
 
 /// Wheel odometry of a Pioneer, for a thread that polls:
 ///
-///   poll descriptor() for poll_events(), for due_in() at most; turn(); take() and take_event() until they say no.
+///   poll descriptor() for poll_events(), for due_in() at most; then turn();
+///   then take() and take_event() until they return false.
 ///
-/// Reads only: it never moves the robot nor enables its motors. A robot that is unplugged, switched off or silent ends
-/// nothing: the device is opened again (by its path, which may meanwhile lead to another node) with a back-off that
-/// grows with the time it is away, to a second at most, and the odometry goes on; from a new origin, unless the
-/// controller has counted on. A robot of unknown kind is asked ever more seldom, every 30 s at last.
+/// The driver only reads: it never moves the robot nor enables its motors. When the robot is unplugged, switched off or
+/// silent, the device is opened again by its path, which may meanwhile lead to another node. The back-off grows with
+/// the time of absence, up to a second. The odometry then continues; it gets a new origin unless the controller has
+/// continued to count. A robot of unknown kind is asked at growing intervals, up to 30 s.
 ///
-/// A TCP connection that fell silent is kept beside those that are tried, until it is reset or one of them answers:
-/// there are robots that never listen there again once they were hung up on, and go on with the client they had.
+/// A silent TCP connection is kept beside new attempts, until it is reset or one of them is answered. Some robots never
+/// accept a new connection after the client has closed one, but continue with the client they had.
 ///
 /// Thread contract: thread-bound. Only close() blocks. Nothing allocates while the robot's state does not change.
 class PioneerDriver {
  public:
   using Clock = pioneer::Clock;
 
-  /// Stamps are CLOCK_MONOTONIC plus `epoch_minus_monotonic`. Opens nothing yet. `open_link` may lead elsewhere than to
-  /// the kernel's devices; the device's name says all the same whether there is a baud rate.
+  /// The stamps are CLOCK_MONOTONIC plus `epoch_minus_monotonic`. Does not open the device yet. Tests pass another
+  /// `open_link`; the name of the device still determines whether there is a baud rate.
   PioneerDriver(const PioneerSettings& settings, Duration epoch_minus_monotonic,
                 pioneer::LinkOpener open_link = pioneer::DeviceLink::open);
   ~PioneerDriver();
   PioneerDriver(const PioneerDriver&) = delete;
   PioneerDriver& operator=(const PioneerDriver&) = delete;
 
-  int descriptor() const;                               ///< -1: none at present. May change with every turn
-  short poll_events() const;                            ///< what to poll(2) it for
-  Clock::duration due_in(Clock::time_point now) const;  ///< until turn() is wanted without any event; never negative
+  int descriptor() const;     ///< to be polled; -1: none. It may change with every turn.
+  short poll_events() const;  ///< events for poll(2)
+  /// Time until turn() is needed without any event; never negative.
+  Clock::duration due_in(Clock::time_point now) const;
 
-  /// Reads, answers and lets time pass, without blocking. `now` should be fresh: it dates the bytes that came.
+  /// Reads, answers and checks timeouts, without blocking. `now` should be fresh, because it becomes the time of
+  /// arrival of the received bytes.
   void turn(Clock::time_point now);
 
-  /// Something was plugged in: the device is tried at once and eagerly for a while, also after release().
+  /// To be called when a device was plugged in: the device is tried at once, and at short intervals for a while, even
+  /// after release().
   void wake(Clock::time_point now);
-  /// Lets go of the device, for `at_most` or until wake(): while its USB port is reset, a node that is held open would
-  /// come back under another number.
+  /// Closes the device, for `at_most` or until wake(). During a reset of its USB port, an open node would come back
+  /// under another number.
   void release(Clock::time_point now, Clock::duration at_most);
-  /// How long the device has been there, or answered that it does not work, without a byte coming from it; zero while
-  /// it is away. A robot that is switched off is as silent as an adapter that hangs.
+  /// Time for which the device has been present, or has returned errors of a device that hangs, without sending a byte;
+  /// zero while it is away. A robot that is switched off is as silent as a hanging adapter.
   Clock::duration silent_for(Clock::time_point now) const {
     return silent_since_ ? now - *silent_since_ : Clock::duration{};
   }
 
-  /// What the next process needs to go on with the odometry; false: there is nothing to go on with.
+  /// Writes the state that the next process needs to continue the odometry. False: there is none.
   bool remember(OdometerMemory& out) const;
-  /// Before the first turn(): readings go on where those of another process ended, if the robot's counters do. If they
-  /// do not, or another driver remembered this, readings begin at another origin than those.
+  /// Called before the first turn(). Readings continue where those of another process ended, if the robot's counters
+  /// agree. If they do not, or the memory belongs to another driver, readings start at another origin.
   void restore(const OdometerMemory& memory);
 
-  /// The oldest reading not taken yet.
+  /// Takes the oldest reading.
   bool take(OdometryReading& reading) { return readings_.pop(reading); }
-  /// A sentence for the log about a change, oldest first. Of repeated trouble only the first time is told.
+  /// Takes the oldest message for the log about a change. A repeated trouble is reported only the first time.
   bool take_event(std::string& event) { return news_.take(event); }
 
   const PioneerState& state() const { return state_; }
 
-  /// Ends the session cleanly, so that the robot's next user finds it ready: sends what ends it and waits until that is
-  /// on the wire, until `deadline` at most. Unless the settings say that the next user goes on with it. For good.
+  /// Ends the session cleanly, so that the robot's next user finds it ready: sends the closing commands and waits until
+  /// they are on the wire, until `deadline` at most. With PioneerSettings::keep_session the session is left open
+  /// instead. The driver cannot be used afterwards.
   void close(Clock::time_point deadline);
 
  private:
@@ -110,19 +115,19 @@ class PioneerDriver {
   pioneer::Odometer odometer_;
   pioneer::LinkOpener open_link_;
   std::unique_ptr<pioneer::Link> link_;
-  bool began_ = false;                       // the session, on this link
-  bool served_ = false;                      // odometry came over this link since it was the one
-  std::unique_ptr<pioneer::Link> standing_;  // that fell silent; null: none did
+  bool began_ = false;                       // the session has begun on this link
+  bool served_ = false;                      // this link has delivered odometry
+  std::unique_ptr<pioneer::Link> standing_;  // a silent TCP connection; null: none
   Clock::time_point standing_until_{}, standing_asked_{};
 
   BackOff back_off_;
   Clock::time_point connect_until_{}, last_sip_{};
   std::optional<Clock::time_point> silent_since_;  // none: the device is away
-  // A robot does not change its kind, but another may take its place.
+  // The kind of a robot does not change, but another robot may take its place.
   static constexpr Clock::duration kFirstAfterRefusal = std::chrono::milliseconds(500);
   Clock::duration refusal_back_off_ = kFirstAfterRefusal;
   enum class Followed { opening, no_config, config };
-  Followed followed_ = Followed::opening;  // how far the present session was
+  Followed followed_ = Followed::opening;  // last phase of the current session that was reported
   std::uint64_t skipped_before_ = 0;
   bool told_telnet_ = false;
 

@@ -1,4 +1,4 @@
-// What outlives the driver, so that the next one goes on with the same session.
+// The state that outlives the driver, so that the next driver continues the same session.
 
 #include <utility>
 
@@ -9,13 +9,13 @@ namespace azimuth {
 namespace {
 
 constexpr std::string_view kOdometer = "pioneer ";
-constexpr std::size_t kX = 0, kY = 1, kHeading = 2, kStartBaud = 3, kBaud = 4;  // of the numbers kept
+constexpr std::size_t kX = 0, kY = 1, kHeading = 2, kStartBaud = 3, kBaud = 4;  // indices in OdometerMemory::numbers
 
 bool is_of(const std::string& odometer, const std::string& device) {
   return odometer.starts_with(kOdometer) && odometer.substr(kOdometer.size()) == device;
 }
 
-/// Name and subclass, a line each.
+/// Name and subclass, one line each.
 pioneer::RobotName named(const std::string& robot) {
   const std::size_t end = robot.find('\n');
   return {.name = robot.substr(0, end),

@@ -1,4 +1,4 @@
-// What the driver says about the robot and the line to it.
+// The driver's reports about the robot and the line to it.
 
 #include <algorithm>
 #include <utility>
@@ -19,7 +19,7 @@ pioneer::OdometerSetup PioneerDriver::odometer_setup() const {
   return setup;
 }
 
-/// What a change in the session means for odometer, state and log.
+/// Passes changes of the session on to the odometer, the state and the log.
 void PioneerDriver::follow_session() {
   if (session_.reboots() != state_.reboots) {
     state_.reboots = session_.reboots();
@@ -59,7 +59,7 @@ void PioneerDriver::follow_config() {
 void PioneerDriver::look_at(const pioneer::StandardSip& sip, Clock::time_point now) {
   last_sip_ = now;
   served_ = true;
-  standing_.reset();  // the robot answers here
+  standing_.reset();  // the robot answers on this link
   back_off_.succeeded();
   refusal_back_off_ = kFirstAfterRefusal;
   enter(Connection::running, {});
@@ -79,7 +79,7 @@ void PioneerDriver::watch_staleness(Clock::time_point now) {
   enter(Connection::silent, settings_.device + ": no odometry");
 }
 
-/// While the robot is looked for and changes its rate, bytes that make no sense are no trouble.
+/// Skipped bytes count only while odometry arrives. During the search and a change of the baud rate they are normal.
 void PioneerDriver::update_counters(bool ran) {
   state_.baud = session_.baud();
   state_.uses_ticks = odometer_.uses_ticks();

@@ -14,7 +14,7 @@
 
 namespace azimuth::pioneer {
 
-/// Reads fields until the bytes end. A field that is not whole keeps its value and ends the reading.
+/// Reads fields until the bytes end. An incomplete field keeps its value and ends the reading.
 class FieldReader {
  public:
   explicit FieldReader(ByteView bytes) : rest_(bytes) {}
@@ -27,7 +27,7 @@ class FieldReader {
     field = static_cast<Field>(value);
     return true;
   }
-  /// A field that may be missing: without a value then.
+  /// A field that may be missing; it then has no value.
   template <std::integral Field>
   bool read(std::optional<Field>& field) {
     Field value{};
@@ -35,7 +35,7 @@ class FieldReader {
     field = value;
     return true;
   }
-  /// Up to a NUL byte, which must be there.
+  /// Reads text up to a NUL byte, which must be present.
   bool read(std::string& field) {
     const auto nul = std::ranges::find(rest_, 0);
     if (nul == rest_.end() || !take(static_cast<std::size_t>(nul - rest_.begin()) + 1)) return end();
@@ -57,7 +57,8 @@ class FieldReader {
   ByteView rest_, taken_;
 };
 
-/// Writes fields into one packet; false and nothing more once they do not fit or an optional one is missing.
+/// Writes fields into one packet. Once a field does not fit, or an optional one is missing, it returns false and writes
+/// nothing more.
 class FieldWriter {
  public:
   explicit FieldWriter(std::uint8_t id) { write(id); }

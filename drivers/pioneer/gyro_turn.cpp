@@ -7,17 +7,19 @@
 namespace azimuth::pioneer {
 namespace {
 
-// 1023 counts are 5 V; 2.5 V are 300 deg/s, before the scale of the individual board.
+// 1023 counts correspond to 5 V, and 2.5 V to 300 deg/s, before the scale of the individual board.
 constexpr double kDegreesPerSecondAndCount = 5.0 / 1023.0 * 300.0 / 2.5;
 
 constexpr int kRestSamples = 25;
 constexpr double kRest_s = 1.0;
-constexpr double kLongRest_s = 30.0;  // then begin a new mean: the rate at rest drifts with temperature
+constexpr double kLongRest_s = 30.0;  // then a new mean is started, because the rate at rest drifts with temperature
 constexpr double kLeastCoverage = 0.75, kMostCoverage = 1.5;
 
-// Wheels err in proportion to the turn, for they slip sideways; hardly at all when they run straight.
+// Standard deviation of the wheels' turn. It is proportional to the turn, because turning wheels slip sideways, and
+// very small on a straight line.
 constexpr double kWheelsPerTurn = 0.03, kWheels_rad_per_s = degrees_to_rad(0.1);
-// The gyro's scale is good; what hurts is the error of its rate at rest, a fraction of its coarse steps.
+// Standard deviation of the gyro's turn. Its scale is accurate; its rate at rest has an error of a fraction of the
+// coarse resolution.
 constexpr double kGyroPerTurn = 0.01, kGyro_rad_per_s = degrees_to_rad(0.3);
 
 constexpr double kSkid_rad = degrees_to_rad(2.0), kSkidPerTurn = 0.2;
@@ -56,7 +58,7 @@ std::optional<double> GyroTurn::take_rad(double elapsed_s) {
   const double covered_s = count_ * kGyroSamplePeriod_s;
   const bool complete = covered_s >= kLeastCoverage * elapsed_s && covered_s <= kMostCoverage * elapsed_s;
   std::optional<double> turn_rad;
-  // Over the time of the samples, not the elapsed one: a sample that slips into the next cycle counts there.
+  // Uses the time covered by the samples, because a sample that arrives in the next cycle counts there.
   if (rate_at_rest_ && complete && count_ > 0)
     turn_rad = -(sum_ / count_ - *rate_at_rest_) * rad_per_count_ * covered_s;
   sum_ = 0.0;
@@ -66,7 +68,7 @@ std::optional<double> GyroTurn::take_rad(double elapsed_s) {
 
 FusedTurn fuse_turns(double wheels_rad, double gyro_rad, double elapsed_s) {
   if (std::abs(gyro_rad - wheels_rad) > kSkid_rad + kSkidPerTurn * std::abs(wheels_rad)) return {gyro_rad, true};
-  if (wheels_rad == 0.0) return {};  // below that, standing wheels are believed rather than a gyro that drifts
+  if (wheels_rad == 0.0) return {};  // wheels at rest are trusted more than a drifting gyro
   const double wheels_variance = square(kWheelsPerTurn * wheels_rad) + square(kWheels_rad_per_s * elapsed_s);
   const double gyro_variance = square(kGyroPerTurn * gyro_rad) + square(kGyro_rad_per_s * elapsed_s);
   const double gyro_weight = wheels_variance / (wheels_variance + gyro_variance);

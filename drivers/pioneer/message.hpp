@@ -7,11 +7,11 @@
 
 namespace azimuth::pioneer {
 
-/// A packet, and what it says of the robot's motion: decoded once for session, odometer and driver. Borrows as a Packet
+/// A packet with its decoded motion data. It is decoded once for session, odometer and driver. Borrows as a Packet
 /// does.
 struct Message {
   Packet packet;
-  /// Nothing: a packet of another kind, or one that is cut short.
+  /// Empty for a packet of another kind, or a truncated one.
   std::variant<std::monostate, StandardSip, EncoderPacket, GyroPacket> motion;
 
   std::uint8_t id() const { return packet.id(); }

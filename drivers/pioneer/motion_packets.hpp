@@ -1,5 +1,5 @@
 #pragma once
-// What the robot sends beside the standard SIP when asked to: wheel ticks and the analog gyro.
+// The packets that the robot sends on request in addition to the standard SIP: wheel ticks and the analog gyro.
 
 #include <array>
 #include <cstdint>
@@ -10,16 +10,16 @@
 
 namespace azimuth::pioneer {
 
-/// ENCODERpac: cumulative ticks of the wheels, modulo 2^32. The firmware's gyro correction does not touch them.
+/// ENCODERpac: cumulative ticks of the wheels, modulo 2^32. The firmware's gyro correction does not affect them.
 struct EncoderPacket {
   std::int32_t left_ticks = 0, right_ticks = 0;
   friend bool operator==(const EncoderPacket&, const EncoderPacket&) = default;
 };
 
-/// GYROpac: the rates of one cycle, one sample every kGyroSamplePeriod_s; comes before the SIP of its cycle.
+/// GYROpac: the rates of one cycle, one sample every kGyroSamplePeriod_s. It comes before the SIP of its cycle.
 struct GyroPacket {
   struct Sample {
-    std::uint16_t rate = 0;  ///< 0 to 1023, about 512 at rest, more when turning clockwise
+    std::uint16_t rate = 0;  ///< 0 to 1023, about 512 at rest, larger when turning clockwise
     std::uint8_t temperature = 0;
     friend bool operator==(const Sample&, const Sample&) = default;
   };
@@ -31,7 +31,7 @@ struct GyroPacket {
 };
 inline constexpr double kGyroSamplePeriod_s = 0.025;
 
-/// Nothing when `data` is another packet or cut short; of a GYROpac the samples that are whole.
+/// None when `data` is another packet or truncated. A truncated GYROpac gives its complete samples.
 std::optional<EncoderPacket> decode_encoder(ByteView data);
 std::optional<GyroPacket> decode_gyro(ByteView data);
 

@@ -12,22 +12,23 @@ namespace azimuth::pioneer {
 namespace {
 
 constexpr double kCounterRange_units = 32768.0;
-constexpr double kFasterThanPossible = 1.5;  // times the robot's limits: then a step is not trusted
+constexpr double kFasterThanPossible = 1.5;  // multiple of the robot's limits beyond which a step is not trusted
 constexpr double kRounding_units = 2.0;
-constexpr double kHiddenPath = 0.05;  // deviation per metre, or radian, of a path between two SIPs far apart
-constexpr int kTicksStopped = 3;      // SIPs in a row without ticks
-constexpr double kOneCycle = 1.5;     // cycles, at most
+constexpr double kHiddenPath = 0.05;  // standard deviation per metre or radian of a path between two distant SIPs
+constexpr int kTicksStopped = 3;      // consecutive SIPs without ticks
+constexpr double kOneCycle = 1.5;     // largest number of cycle times that counts as one cycle
 constexpr double kStraight_units = 2.0;
 
-// While no session is open the robot may go on as it went, or begin to turn. Its firmware stops it for want of
-// commands; and it may have been pushed.
+// While no session is open, the robot may continue to drive or start to turn until its firmware stops it for lack of
+// commands. It may also have been pushed.
 constexpr double kLongestDrive_s = 5.0;
-constexpr double kIndoorTurn_rad_s = 1.0;  // robots indoors turn by up to that
-constexpr double kMayTurn_rad_s = 0.45;    // deviation of it
+constexpr double kIndoorTurn_rad_s = 1.0;  // robots indoors turn by up to this rate
+constexpr double kMayTurn_rad_s = 0.45;    // standard deviation of the turn rate
 constexpr double kPushed_m = 0.05, kPushed_rad = 0.05;
 
-/// Difference of two position counters, of which 15 bits are reliable. After a step of `jump_units` that could not be
-/// true the counter may come back as far: half the range away, the shortest way would go on instead.
+/// Difference of two position counters, of which 15 bits are reliable. After an implausible step of `jump_units` the
+/// counter may jump back by the same amount. Near half the range the shortest way would then continue in the wrong
+/// direction, so the other way is considered as well.
 double counter_step(std::uint16_t newer, std::uint16_t older, double jump_units) {
   const auto difference = static_cast<unsigned>(newer - older) & 0x7FFFU;
   const double shortest = difference < 0x4000U ? difference : difference - kCounterRange_units;
@@ -36,7 +37,7 @@ double counter_step(std::uint16_t newer, std::uint16_t older, double jump_units)
   return comes_back ? other : shortest;
 }
 
-/// Shortest difference modulo a turn.
+/// The shortest difference modulo a turn.
 double heading_step_rad(std::int16_t newer, std::int16_t older, double units_per_turn) {
   return wrap((newer - older) * (2.0 * kPi / units_per_turn));
 }
@@ -129,7 +130,7 @@ bool Odometer::is_same_cycle(Clock::time_point a, Clock::time_point b) const {
   return 2.0 * std::abs(in_seconds(a - b)) < setup_.sip_cycle_s;
 }
 
-/// A SIP and the ticks of its cycle are both there.
+/// To be called when the SIP and the ticks of the same cycle have arrived.
 std::optional<OdometryReading> Odometer::pair(const EncoderPacket& packet, bool wanted) {
   unpaired_.reset();
   waits_for_ticks_ = false;
@@ -139,8 +140,9 @@ std::optional<OdometryReading> Odometer::pair(const EncoderPacket& packet, bool 
   return emit(ticks_tell_the_way() ? motion : std::nullopt);
 }
 
-/// Over several cycles, SIPs lost or waiting, ticks do not tell where on the way the robot turned. The controller's
-/// counters do. A way that ends as it began was straight only if it was short.
+/// True: the ticks can be used. Over several cycles (SIPs lost or waiting) ticks do not show where on the way the robot
+/// turned, but the controller's counters do. A path whose final heading equals its initial one is straight only if it
+/// is short.
 bool Odometer::ticks_tell_the_way() const {
   if (since_.sips != 1 || since_.elapsed_s > limits_.stale_s) return false;
   const bool one_cycle = since_.elapsed_s < kOneCycle * setup_.sip_cycle_s;
@@ -176,14 +178,14 @@ bool Odometer::is_possible(double length_m, double elapsed_s) const {
   return length_m <= limits_.speed_m_s * possible_s + kRounding_units * setup_.parameters.distance_m_per_unit;
 }
 
-/// In the same session of the same robot.
+/// True: `now` can follow `before` in the same session of the same robot.
 bool Odometer::can_follow(const Sighting& before, const Sighting& now) const {
   const Eigen::Vector2d step_units(counter_step(now.sip.x_units, before.sip.x_units, 0.0),
                                    counter_step(now.sip.y_units, before.sip.y_units, 0.0));
   return is_possible(setup_.parameters.distance_m_per_unit * step_units.norm(), in_seconds(now.at - before.at));
 }
 
-/// How far a step may be from the truth. False: the robot cannot have gone so far.
+/// Adds the uncertainty of a step. False: the robot cannot have moved that far.
 bool Odometer::judge(double length_m, double turn_rad, double elapsed_s) {
   const RobotParameters& robot = setup_.parameters;
   const double possible_s = kFasterThanPossible * std::max(elapsed_s, setup_.sip_cycle_s);
@@ -192,7 +194,8 @@ bool Odometer::judge(double length_m, double turn_rad, double elapsed_s) {
   if (!possible) add_sigma(length_m, 0.0);
   if (turn_rad > limits_.turn_rad_s * possible_s + kRounding_units * 2.0 * kPi / robot.heading_units_per_turn)
     add_sigma(0.0, turn_rad);
-  if (reach_m > 0.5 * kCounterRange_units * robot.distance_m_per_unit) add_sigma(reach_m, 0.0);  // wrapped unseen?
+  // The counter may have wrapped unnoticed.
+  if (reach_m > 0.5 * kCounterRange_units * robot.distance_m_per_unit) add_sigma(reach_m, 0.0);
   if (elapsed_s > limits_.stale_s) {
     const double turning_rad_s = std::max(kIndoorTurn_rad_s, std::abs(turn_rad_s_));
     add_sigma(kHiddenPath * reach_m, std::min(kPi, kHiddenPath * turning_rad_s * elapsed_s));

@@ -14,70 +14,75 @@
 
 namespace azimuth::pioneer {
 
-/// What a session knows about the robot's motion packets.
+/// The data that a session provides for the odometer.
 struct OdometerSetup {
   RobotParameters parameters;
-  double ticks_per_mm = 0.0;  ///< 0: no use of ENCODERpacs
-  bool use_gyro = false;      ///< false also when firmware corrects the heading with its gyro
+  double ticks_per_mm = 0.0;  ///< 0: ENCODERpacs are not used
+  bool use_gyro = false;      ///< false also when the firmware corrects the heading by its gyro
   double sip_cycle_s = 0.1;
 };
 
 /// Cumulative odometry from the controller's packets.
 ///
-/// Position counters are differenced modulo 2^15 units the shortest way, which is right for 15-bit and 16-bit firmware,
-/// and heading modulo a turn, so lost packets lose no motion. A step that is too large to be true is believed all the
-/// same, and said to be uncertain (sigma_gap_m, sigma_gap_rad).
+/// Position counters are differenced modulo 2^15 units by the shortest way, which is correct for 15-bit and 16-bit
+/// firmware, and headings modulo a turn. So lost packets lose no motion. An implausibly large step is used
+/// nevertheless, but marked as uncertain (sigma_gap_m, sigma_gap_rad).
 ///
-/// Ticks, once trusted, replace the whole millimetres of the counters; the analog gyro corrects the turn.
+/// Wheel ticks, once trusted, replace the counters with their resolution of a millimetre; the analog gyro corrects the
+/// turn.
 ///
-/// Stamps are those of the cycle's begin on the wire. They increase strictly.
+/// The stamp of a reading is the time at which its cycle began on the wire. Stamps increase strictly.
 ///
 /// Thread contract: thread-bound; never allocates.
 class Odometer {
  public:
-  /// `epoch_minus_monotonic` turns arrival times into stamps.
+  /// `epoch_minus_monotonic` turns times of arrival into stamps.
   Odometer(const PioneerSettings& settings, Duration epoch_minus_monotonic);
 
-  /// The controller begins to count anew: new origin, and what the robot may have moved in between is uncertain.
+  /// The controller restarts its counting: the readings get a new origin, and the motion meanwhile is uncertain.
   void begin_session(const OdometerSetup& setup);
-  /// More is known about the same session.
+  /// Updates the setup of the same session.
   void refine(const OdometerSetup& setup);
 
-  /// A SIP, and where that was.
+  /// A SIP with its time and pose.
   struct Memory {
     std::uint16_t x_units = 0, y_units = 0;
     std::int16_t heading_units = 0;
-    Clock::time_point at{};  ///< of the cycle's begin
+    Clock::time_point at{};  ///< when the cycle began
     Pose2 T_odom_body;
     std::uint32_t origin = 0;
   };
-  /// Of the newest SIP; nothing: there is none in this session.
+  /// The newest SIP; none: there is none in this session.
   std::optional<Memory> memory() const;
-  /// The session is the one that another process's odometer had. A first SIP that cannot come after what it remembered
-  /// is of another one: then all begins anew, at the next origin.
+  /// Continues the session of another process's odometer. If the first SIP cannot follow the remembered one, the
+  /// session is a different one, and the readings start at the next origin.
   void restore(const Memory& memory, const OdometerSetup& setup);
 
-  /// Origins begin after that one.
+  /// Origins start after `origin`.
   void follow(std::uint32_t origin) { origin_ = origin; }
 
-  /// A message of the session; others than of motion are ignored. Returns the reading it completes.
+  /// Takes a message of the session; messages without motion data are ignored. Returns the reading that the message
+  /// completes.
   std::optional<OdometryReading> add(const Message& message, Clock::duration byte_time);
 
-  double speed_m_s() const { return speed_m_s_; }  ///< over the last reading's step
+  /// Speed over the step of the last reading.
+  double speed_m_s() const { return speed_m_s_; }
   bool uses_ticks() const { return ticks_.trusted(); }
-  std::uint64_t gaps() const { return counts_.gaps; }    ///< readings with more than the usual uncertainty
-  std::uint64_t skids() const { return counts_.skids; }  ///< turns that only the gyro noticed
+  /// Readings with more than the usual uncertainty.
+  std::uint64_t gaps() const { return counts_.gaps; }
+  /// Turns that only the gyro noticed.
+  std::uint64_t skids() const { return counts_.skids; }
 
  private:
-  /// Motion since the last reading, and what is uncertain about it.
+  /// The motion since the last reading, and its uncertainty.
   struct Since {
-    Pose2 T_last_body;  // by the SIP alone
+    Pose2 T_last_body;  // from the SIP alone
     double turn_rad = 0.0, forward_m = 0.0, elapsed_s = 0.0;
     double sigma_m = 0.0, sigma_rad = 0.0;
     int sips = 0;
     bool standing = true;
   };
-  /// A SIP and when its cycle began.
+  /// A SIP and the time at which its cycle began.
   struct Sighting {
     StandardSip sip;
     Clock::time_point at{};
@@ -102,7 +107,7 @@ class Odometer {
   double turn_since_last(const std::optional<TickMotion>& ticks);
   OdometryReading reading();
 
-  /// What no robot of this kind exceeds, and for how long it may be silent.
+  /// Largest speed and turn rate of the robot, and the silence after which its motion is uncertain.
   struct Limits {
     double speed_m_s, turn_rad_s, stale_s;
   };
@@ -115,11 +120,12 @@ class Odometer {
   CycleClock cycle_;
   WheelTicks ticks_{0.0, 0.0};
   std::optional<GyroTurn> gyro_;
-  std::optional<Sighting> last_;                     // of this session
-  std::optional<Clock::time_point> before_session_;  // last sighting of the session before
+  std::optional<Sighting> last_;                     // last SIP of this session
+  std::optional<Clock::time_point> before_session_;  // last SIP of the previous session
   std::optional<Ticks> unpaired_;
-  Eigen::Vector2d jump_units_ = Eigen::Vector2d::Zero();  // the last step, if it could not be true
-  bool restored_ = false;                                 // and no SIP has come since
+  // The last step, if it was implausible.
+  Eigen::Vector2d jump_units_ = Eigen::Vector2d::Zero();
+  bool restored_ = false;  // no SIP has arrived since restore()
   bool waits_for_ticks_ = false;
   int sips_without_ticks_ = 0;
   double forward_since_pair_m_ = 0.0;

@@ -1,4 +1,4 @@
-// From the motion since the last reading to the next reading.
+// Computes the next reading from the motion since the last one.
 
 #include <algorithm>
 #include <cmath>
@@ -11,13 +11,13 @@
 namespace azimuth::pioneer {
 namespace {
 
-constexpr double kSkidDoubt = 0.25;  // deviation per disagreement of gyro and wheels
+constexpr double kSkidDoubt = 0.25;  // standard deviation per disagreement of gyro and wheels
 
 }  // namespace
 
 OdometryReading Odometer::emit(const std::optional<TickMotion>& ticks) {
   const double turn_rad = turn_since_last(ticks);
-  // The SIP's chord, turned with the half of what the turn was corrected by; or that of the ticks' arc.
+  // The chord of the SIP, rotated by half the correction of the turn; or the chord of the arc given by the ticks.
   Eigen::Vector2d p_body = rotated(since_.T_last_body.position(), 0.5 * (turn_rad - since_.turn_rad));
   if (ticks) {
     const double half_rad = 0.5 * turn_rad;

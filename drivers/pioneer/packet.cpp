@@ -7,10 +7,10 @@ namespace azimuth::pioneer {
 namespace {
 
 constexpr std::uint8_t kHeader0 = 0xFA, kHeader1 = 0xFB;
-constexpr std::size_t kHeaderSize = 3;  // with N
+constexpr std::size_t kHeaderSize = 3;  // including N
 constexpr std::uint8_t kMinLength = 3;  // an id and the checksum
 
-/// Size of the frame that `bytes` begin with; 0: they do not begin with one. Requires kHeaderSize bytes.
+/// Size of the frame at the beginning of `bytes`; 0: there is no frame. Requires kHeaderSize bytes.
 std::size_t frame_size(ByteView bytes) {
   const bool is_header = bytes[0] == kHeader0 && bytes[1] == kHeader1 && bytes[2] >= kMinLength;
   return is_header ? kHeaderSize + bytes[2] : 0;
@@ -88,13 +88,13 @@ void PacketScanner::skip(std::size_t count) {
   begin_ += count;
 }
 
-/// To the first byte that may begin a header.
+/// Skips to the first byte that may begin a header.
 void PacketScanner::skip_to_header() {
   const ByteView bytes = rest();
   skip(static_cast<std::size_t>(std::ranges::find(bytes, kHeader0) - bytes.begin()));
 }
 
-/// From a packet that is not whole yet to a good one inside it, if there is one.
+/// Skips from an incomplete packet to a correct one inside it, if there is one.
 bool PacketScanner::skip_to_packet_inside() {
   for (std::size_t at = 1; at + kHeaderSize <= size(); ++at) {
     const ByteView bytes = rest().subspan(at);

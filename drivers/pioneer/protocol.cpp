@@ -8,7 +8,7 @@
 namespace azimuth::pioneer {
 namespace {
 
-constexpr std::array kBauds{9600, 19200, 38400, 57600, 115200};  // place: the code
+constexpr std::array kBauds{9600, 19200, 38400, 57600, 115200};  // indexed by code
 
 std::optional<int> integer_argument(ByteView argument) {
   if (argument.size() < 3) return std::nullopt;

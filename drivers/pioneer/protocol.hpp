@@ -1,6 +1,6 @@
 #pragma once
-// What the packets of the Pioneer protocol say: commands to the robot, ids of its packets, and how commands are
-// written.
+// The contents of the packets of the Pioneer protocol: commands to the robot, ids of its packets, and the encoding of
+// commands.
 
 #include <cstdint>
 #include <optional>
@@ -10,16 +10,16 @@
 
 namespace azimuth::pioneer {
 
-/// Commands, by the number that is data[0]. Before OPEN, the numbers 0, 1 and 2 are the synchronisation instead.
+/// Commands, by the number in data[0]. Before OPEN, the numbers 0, 1 and 2 are the synchronisation instead.
 enum class Command : std::uint8_t {
-  pulse = 0,    // keeps the firmware's watchdog quiet
-  open = 1,     // begins the session: standard SIPs stream from now on
-  close = 2,    // ends it
-  polling = 3,  // text: order in which sonars fire
-  enable = 4,   // motors on 1, off 0
+  pulse = 0,    // feeds the firmware's watchdog
+  open = 1,     // begins the session: standard SIPs are sent from now on
+  close = 2,    // ends the session
+  polling = 3,  // text: the firing order of the sonars
+  enable = 4,   // motors: 1 on, 0 off
   set_acceleration = 5,
   set_max_velocity = 6,
-  set_origin = 7,  // the robot's x, y, heading := 0
+  set_origin = 7,  // sets the robot's x, y, heading to 0
   move = 8,
   rotate = 9,
   set_max_rotation = 10,
@@ -28,8 +28,8 @@ enum class Command : std::uint8_t {
   relative_heading = 13,
   say = 15,
   joystick_info = 17,
-  config = 18,    // asks for a CONFIGpac
-  encoder = 19,   // ENCODERpacs: 0 none, 1 one, 2 one each cycle
+  config = 18,    // requests a CONFIGpac
+  encoder = 19,   // ENCODERpacs: 0 none, 1 one, 2 one in each cycle
   rotation = 21,  // deg/s
   heading_from_set_point = 22,
   set_rotation_acceleration = 23,
@@ -39,7 +39,7 @@ enum class Command : std::uint8_t {
   digital_out = 30,
   wheel_velocities = 32,
   analog_select = 35,
-  io_request = 40,  // IOpacs: 0 none, 1 one, 2 one each cycle
+  io_request = 40,  // IOpacs: 0 none, 1 one, 2 one in each cycle
   tty2 = 42,
   get_aux = 43,
   bump_stall = 44,
@@ -54,7 +54,7 @@ enum class Command : std::uint8_t {
   battery_info = 62,
   tty3 = 66,
   get_aux2 = 67,
-  rotation_kp = 82,  // to 87, translation_ki: the controller's gains
+  rotation_kp = 82,  // 82 to 87, translation_ki: the controller's gains
   translation_ki = 87,
   simulator_set_pose = 224,  // simulators only: three int32, mm, mm, deg
   simulator_reset = 225,
@@ -63,7 +63,7 @@ enum class Command : std::uint8_t {
   battery_test = 250,
 };
 
-/// Synchronisation: the robot echoes each; the echo of sync2 carries robot name, class and subclass.
+/// Synchronisation: the robot echoes each of these. The echo of sync2 carries the robot's name, class and subclass.
 inline constexpr std::uint8_t kSync0 = 0, kSync1 = 1, kSync2 = 2;
 
 /// Ids of the robot's packets.
@@ -80,22 +80,22 @@ enum Value : std::uint8_t {
   io = 0xF0,
   battery = 0xFA,
   reboot_with_data = 0xFE,
-  reboot = 0xFF,  // the controller restarted; during synchronisation: a wrong sync count
+  reboot = 0xFF,  // the controller restarted; during synchronisation: a wrong sync number
 };
-/// Whether a packet is a standard SIP. Which of the ids it is tells nothing reliable about motion.
+/// True: the packet is a standard SIP. The particular id does not tell reliably whether the robot moves.
 constexpr bool is_sip(std::uint8_t id) { return id >= sip_first && id <= sip_last; }
 }  // namespace packet_id
 
-/// How a command's argument is written.
+/// The encoding of a command's argument.
 enum class ArgumentType : std::uint8_t { positive = 0x3B, negative = 0x1B, text = 0x2B };
 
-/// Longest text an argument may have.
+/// Longest text argument.
 inline constexpr std::size_t kMaxArgumentText = 195;
 
 Frame encode_command(std::uint8_t number);
-/// `argument` within +-32767.
+/// `argument` is within +-32767.
 Frame encode_command(std::uint8_t number, int argument);
-/// `argument` of at most kMaxArgumentText bytes.
+/// `argument` has at most kMaxArgumentText bytes.
 Frame encode_command(std::uint8_t number, std::string_view argument);
 
 inline Frame encode_command(Command command) { return encode_command(static_cast<std::uint8_t>(command)); }
@@ -104,19 +104,19 @@ Frame encode_command(Command command, Argument argument) {
   return encode_command(static_cast<std::uint8_t>(command), argument);
 }
 
-/// A command as the robot reads it.
+/// A command as decoded by the robot's side.
 struct DecodedCommand {
   std::uint8_t number = 0;
-  std::optional<int> value;              ///< of an integer argument
-  std::optional<std::string_view> text;  ///< of a text argument; borrows from the packet
+  std::optional<int> value;              ///< value of an integer argument
+  std::optional<std::string_view> text;  ///< a text argument; borrows from the packet
   ByteView argument;                     ///< all bytes after the number
   bool is(Command command) const { return number == static_cast<std::uint8_t>(command); }
 };
 
-/// `data` of a packet, not empty. An argument that is cut short or of unknown type is only in `argument`.
+/// `data` are those of a packet, not empty. A truncated argument, or one of unknown type, is only in `argument`.
 DecodedCommand decode_command(ByteView data);
 
-/// The argument of host_baud for a baud rate, and back; nothing for rates the controller does not have.
+/// The argument of host_baud for a baud rate, and the reverse; none for rates that the controller does not have.
 std::optional<int> baud_code(int baud);
 std::optional<int> baud_of_code(int code);
 

@@ -13,7 +13,7 @@ struct Entry {
 
 constexpr RobotParameters counting(double mm_per_unit) { return {.distance_m_per_unit = 0.001 * mm_per_unit}; }
 
-/// Pioneer 1 counts 1024 units a turn and has velocities in units of their own.
+/// Pioneer 1 has 1024 units per turn, and its own units of velocity.
 constexpr RobotParameters first_generation(double mm_per_unit) {
   return {
       .distance_m_per_unit = 0.001 * mm_per_unit, .velocity_m_s_per_unit = 2.5332e-3, .heading_units_per_turn = 1024.0};
@@ -25,7 +25,7 @@ constexpr RobotParameters amigo() {
   return parameters;
 }
 
-// The factors that robots of each kind are known by, as ARIA and Player have them. What ends in "-sh" is not listed.
+// The conversion factors of each kind of robot, as in ARIA and Player. Names that end in "-sh" are not listed.
 constexpr std::array kKnown{
     Entry{"amigo", amigo()},
     Entry{"mt400", counting(1.0)},
@@ -58,8 +58,8 @@ constexpr std::array kKnown{
     Entry{"seekurjr", counting(1.0)},
 };
 
-/// Controllers of this make count in millimetres, whatever they drive and whatever is mounted on it: "p3dx-sh",
-/// "p3dx-sh-lms500".
+/// True: the controller counts in millimetres. All controllers of the make "-sh" do, on any robot and with any
+/// equipment: "p3dx-sh", "p3dx-sh-lms500".
 bool counts_millimetres(std::string_view name) {
   constexpr std::string_view kMake = "-sh";
   return (name.size() > kMake.size() && name.ends_with(kMake)) || name.find("-sh-", 1) != std::string_view::npos;

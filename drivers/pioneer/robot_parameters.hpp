@@ -7,25 +7,25 @@
 
 namespace azimuth::pioneer {
 
-/// How one kind of robot counts.
+/// The units of one kind of robot.
 struct RobotParameters {
-  double distance_m_per_unit = 0.001;  ///< of x and y in the standard SIP
+  double distance_m_per_unit = 0.001;  ///< for x and y in the standard SIP
   double velocity_m_s_per_unit = 0.001;
   double heading_units_per_turn = 4096.0;
-  double gyro_scale = 1.626;  ///< of the analog gyro
+  double gyro_scale = 1.626;  ///< for the analog gyro
   friend bool operator==(const RobotParameters&, const RobotParameters&) = default;
 };
 
-/// Parameters of a subclass as the robot names it in its answer to SYNC2 (case does not matter), e.g. "p3dx-sh". All
-/// "-sh" controllers count in millimetres ("p3at-sh-lms500" too). Nothing for a subclass that is not known: guessing
-/// would scale the odometry wrongly and silently.
+/// Parameters of a subclass as the robot reports it in its answer to SYNC2, e.g. "p3dx-sh" (case does not matter). All
+/// "-sh" controllers count in millimetres (including "p3at-sh-lms500"). None for an unknown subclass: a guess would
+/// silently scale the odometry wrongly.
 std::optional<RobotParameters> find_robot_parameters(std::string_view subclass);
 
-/// The same for a robot that calls itself `subclass`, as far as the settings do not say otherwise. An unknown kind is
-/// accepted when the settings name a known one, or its distance conversion.
+/// The parameters of a robot with this subclass, unless the settings override them. An unknown kind is accepted when
+/// the settings name a known one, or give its distance conversion.
 std::optional<RobotParameters> robot_parameters(const PioneerSettings& settings, std::string_view subclass);
 
-/// The subclasses with an entry of their own, for error messages.
+/// The subclasses with their own entry, for error messages.
 std::string known_subclasses();
 
 }  // namespace azimuth::pioneer

@@ -31,14 +31,15 @@ int make_raw(int fd) {
   line.c_cflag &= ~static_cast<tcflag_t>(CSTOPB | CRTSCTS | PARENB);
   line.c_cflag |= CLOCAL | CREAD | CS8;
   line.c_iflag &= ~static_cast<tcflag_t>(IXON | IXOFF | IXANY | INPCK);
-  line.c_cc[VMIN] = 1;  // so that reading 0 bytes means the line hung up
+  line.c_cc[VMIN] = 1;  // so that a read of 0 bytes means that the line was hung up
   line.c_cc[VTIME] = 0;
   return result(::tcsetattr(fd, TCSANOW, &line));
 }
 
-// A pseudo terminal keeps the claim beyond its last close, as long as its other side lives: nobody could open it again.
+// A pseudo-terminal keeps the claim after its last close, as long as its other side exists, so nobody could open it
+// again.
 int claim_exclusively(int fd) {
-  constexpr unsigned kFirstPty = 136, kLastPty = 143;  // major numbers
+  constexpr unsigned kFirstPty = 136, kLastPty = 143;  // major device numbers
   struct stat node {};
   if (::fstat(fd, &node) < 0) return errno;
   const unsigned kind = major(node.st_rdev);

@@ -8,12 +8,12 @@ namespace {
 using namespace std::chrono_literals;
 using Kind = SessionAction::Kind;
 
-constexpr auto kFirstSip = 1s;  // after OPEN
+constexpr auto kFirstSip = 1s;  // longest time from OPEN to the first SIP
 constexpr auto kConfigAnswer = 500ms;
 constexpr int kConfigTries = 2;
-constexpr auto kBaudChange = 10ms;  // before and after, for the controller to follow
+constexpr auto kBaudChange = 10ms;  // pause before and after a change of the rate, for the controller
 constexpr auto kBaudAnswer = 900ms;
-constexpr auto kRepeat = 1s;  // a request may be lost as any packet
+constexpr auto kRepeat = 1s;  // a request is repeated after this time, because any packet may be lost
 constexpr int kRepeats = 5;
 
 bool is_reboot(std::uint8_t id) { return id == packet_id::reboot || id == packet_id::reboot_with_data; }
@@ -47,7 +47,7 @@ void Session::opened_now() {
 void Session::ask_for_config() {
   ++tries_.of_config;
   send(Command::config);
-  send(Command::sonar, 0);  // echoes fill a slow line and nobody looks at them
+  send(Command::sonar, 0);  // the echoes fill a slow line and are not used
   wait(Wait::answer, kConfigAnswer);
 }
 
@@ -56,7 +56,8 @@ void Session::configured() {
   run();
 }
 
-/// Only where the controller falls back by itself: another one would be left at a rate its next user does not expect.
+/// True: the baud rate may be raised. The controller must return to its start rate by itself, or its next user would
+/// find it at an unexpected rate.
 bool Session::may_raise_baud() const {
   return has_baud_ && opened_here_ && !rate_.raise_failed && rate_.baud < settings_.raised_baud &&
          baud_code(settings_.raised_baud) && who_.config && who_.config->auto_baud == ConfigPacket::kAutoBaudResets;
@@ -132,7 +133,7 @@ void Session::note(const Message& message) {
   if (who_.config) configured();
 }
 
-/// The controller is back at its start rate and has forgotten the session.
+/// The controller has returned to its start baud rate and has lost the session.
 void Session::rebooted() {
   ++counts_.reboots;
   resumable_ = false;
@@ -201,7 +202,7 @@ void Session::keep_alive() {
 
 void Session::leave(Clock::time_point now) {
   now_ = now;
-  if (!resumable_) return close(now);  // nobody could go on with it
+  if (!resumable_) return close(now);  // no later process could continue the session
   act(Kind::end);
   phase_ = SessionPhase::ended;
 }

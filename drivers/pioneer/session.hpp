@@ -13,19 +13,19 @@
 
 namespace azimuth::pioneer {
 
-/// How the robot introduces itself.
+/// The robot's identification.
 struct RobotName {
   std::string name, robot_class, subclass;
 };
 
-/// What the session wants done with the link, in this order.
+/// An action that the session requests on the link. Actions are carried out in the order of their requests.
 struct SessionAction {
   enum class Kind {
     send,         // write `frame`
-    set_baud,     // what was written before has left by now
-    flush_input,  // forget what arrived and was not looked at
-    give_up,      // close the link; reason() says why
-    end           // wait until all is sent, then close the link: a clean end
+    set_baud,     // all bytes written before have left by now
+    flush_input,  // discard received bytes that were not processed
+    give_up,      // close the link; reason() tells why
+    end           // wait until everything is sent, then close the link: a clean end
   };
   Kind kind = Kind::send;
   Frame frame;
@@ -34,83 +34,98 @@ struct SessionAction {
 
 enum class SessionPhase { idle, synchronising, opening, configuring, raising_baud, running, ended };
 
-/// What it takes to go on with a session that another process had.
+/// The state needed to continue the session of another process.
 struct SessionMemory {
   RobotName robot;
-  int start_baud = 0, baud = 0;  ///< when it opened, and later; 0: not a serial line
+  int start_baud = 0, baud = 0;  ///< baud rate at the opening of the session, and later; 0: not a serial line
   Clock::time_point heard{};     ///< when the robot was last heard
 };
 
-/// The conversation with the controller: finds its baud rate, ends a session somebody left open, synchronises, opens,
-/// asks for what odometry needs and keeps the firmware's watchdog quiet. Packets and time in, actions out.
+/// The conversation with the controller. It finds the baud rate, ends a session that another program left open,
+/// synchronises, opens the session, requests the packets for odometry, and feeds the firmware's watchdog. Its inputs
+/// are packets and time, its outputs are actions.
 ///
-/// A session outlives its line: the controller goes on counting. One of our own that is found open soon after the line
-/// broke therefore goes on too, and no motion is lost; as long as that can be, nothing is sent that would end it.
+/// A session survives a broken line, because the controller continues to count. So a session of this object that is
+/// still open soon after the line broke is continued, and no motion is lost. As long as that is possible, nothing is
+/// sent that would end it.
 ///
-/// What does not answer over TCP is given up within a second, to be connected to anew: a server that hung may never
-/// look at the connection it had. It may as well never listen again once it was hung up on, so the driver keeps that
-/// connection beside the new one, and resume_at() goes on with it.
+/// A TCP connection without an answer is given up within a second and replaced by a new one, because a server that hung
+/// may never serve the old connection again. It may also never accept a new one after a hang-up, so the driver keeps
+/// the old connection beside the new one, and resume_at() continues with it.
 ///
-/// Reads only: of all commands it knows PULSE, OPEN, CLOSE, CONFIG, ENCODER, SONAR 0, GYRO and HOSTBAUD, none of which
-/// moves a wheel or enables a motor.
+/// The session only reads. Of all commands it uses PULSE, OPEN, CLOSE, CONFIG, ENCODER, SONAR 0, GYRO and HOSTBAUD,
+/// none of which moves a wheel or enables a motor.
 ///
-/// Whatever packets come, it goes on or gives up within bounded time, after which begin() starts afresh.
+/// Regardless of the received packets, the session succeeds or gives up within bounded time. After it gave up, begin()
+/// starts again.
 ///
 /// Thread contract: thread-bound. All actions must be taken after each call; never allocates in phase `running`.
 class Session {
  public:
-  /// `has_baud`: false for a link that is no serial line.
+  /// `has_baud` is false for a link that is not a serial line.
   Session(const PioneerSettings& settings, bool has_baud);
 
-  /// Before begin(): a session that another process left open is taken for our own. False: its robot is of unknown
-  /// kind.
+  /// Called before begin(). An open session of another process is then treated as this object's own. False: its robot
+  /// is of unknown kind.
   bool restore(const SessionMemory& memory);
-  /// Of the present session; nothing: no other process could go on with it.
+  /// The memory of the current session; none: no other process could continue it.
   std::optional<SessionMemory> memory() const;
 
-  /// The link was just opened.
+  /// To be called when the link has been opened.
   void begin(Clock::time_point now);
-  /// Likewise for one that this session had before it fell silent: whatever session is found open there is ours.
+  /// Like begin(), for a connection that this session had before it fell silent. A session that is found open on it is
+  /// this object's own.
   void resume_at(Clock::time_point now);
   void receive(const Message& message, Clock::time_point now);
-  /// Lets time pass; to be called when due_in() has passed, at the latest.
+  /// Checks timeouts. To be called when due_in() has passed, at the latest.
   void turn(Clock::time_point now);
-  /// Ends cleanly, from any phase.
+  /// Ends the session cleanly, from any phase.
   void close(Clock::time_point now);
-  /// Says no more, and leaves the session open if there is one: the controller goes on counting.
+  /// Sends nothing more, and leaves an open session open, so that the controller continues to count.
   void leave(Clock::time_point now);
-  /// The link broke.
+  /// To be called when the link is broken.
   void drop() {
     phase_ = SessionPhase::idle;
     waiting_ = Wait::nothing;
   }
 
-  /// The next thing to do; nothing: wait.
+  /// The next action; none: wait.
   std::optional<SessionAction> take();
-  /// Time until turn() has something to do; zero when it has already.
+  /// Time until turn() has something to do; zero when it is due.
   Clock::duration due_in(Clock::time_point now) const;
 
   SessionPhase phase() const { return phase_; }
   bool is_open() const { return phase_ >= SessionPhase::configuring && phase_ <= SessionPhase::running; }
-  const std::string& reason() const { return reason_; }  ///< of the last give_up
-  bool refused() const { return refused_; }              ///< it was that the robot is of no kind we know
-  int baud() const { return rate_.baud; }                ///< 0: not a serial line
+  /// The reason of the last give_up.
+  const std::string& reason() const { return reason_; }
+  /// True: the reason was that the robot is of an unknown kind.
+  bool refused() const { return refused_; }
+  /// 0: not a serial line.
+  int baud() const { return rate_.baud; }
 
-  const RobotName& robot() const { return who_.name; }                       ///< when opening or later
-  const RobotParameters& parameters() const { return who_.parameters; }      ///< likewise
-  const std::optional<ConfigPacket>& config() const { return who_.config; }  ///< of this session
+  /// Valid in phase `opening` or later.
+  const RobotName& robot() const { return who_.name; }
+  /// Valid in phase `opening` or later.
+  const RobotParameters& parameters() const { return who_.parameters; }
+  /// The configuration of this session.
+  const std::optional<ConfigPacket>& config() const { return who_.config; }
   bool config_unverified() const { return who_.config_unverified; }
   bool uses_gyro() const { return streams_.wants_gyro; }
-  bool baud_refused() const { return rate_.raise_failed; }  ///< the robot did not follow to raised_baud
+  /// True: the robot did not follow to raised_baud.
+  bool baud_refused() const { return rate_.raise_failed; }
 
-  std::uint64_t opened() const { return counts_.opened; }    ///< sessions so far; each has its own odometry origin
-  std::uint64_t resumed() const { return counts_.resumed; }  ///< times one went on over a new link
-  std::uint64_t reboots() const { return counts_.reboots; }  ///< controller restarts noticed
-  std::uint64_t old_sessions() const { return counts_.old_sessions; }  ///< sessions found open and closed
+  /// Number of sessions so far. Each has an odometry origin of its own.
+  std::uint64_t opened() const { return counts_.opened; }
+  /// How often a session continued over a new link.
+  std::uint64_t resumed() const { return counts_.resumed; }
+  /// Controller restarts noticed.
+  std::uint64_t reboots() const { return counts_.reboots; }
+  /// Sessions that were found open and closed.
+  std::uint64_t old_sessions() const { return counts_.old_sessions; }
 
  private:
   static constexpr Clock::duration kPulse = std::chrono::milliseconds(500);
-  static constexpr std::size_t kCommandSize = 9;  // of the longest command, with its frame
+  static constexpr std::size_t kCommandSize = 9;  // size of the longest command, with its frame
   enum class Wait { nothing, answer, settle, sweep, baud_sent, baud_set };
 
   void add_start_bauds();
@@ -161,28 +176,31 @@ class Session {
   BaudSearch search_;
   SessionPhase phase_ = SessionPhase::idle;
   Wait waiting_ = Wait::nothing;
-  Clock::time_point now_{};  // of the present call
+  Clock::time_point now_{};  // time of the current call
   Clock::time_point deadline_{}, give_up_at_{}, last_sent_{}, last_sip_{}, repeat_at_{};
   std::uint8_t sync_ = 0;
-  /// Without an answer.
+  /// Attempts without an answer.
   struct Tries {
     int of_round = 0;
-    int rounds = 0;  // on this line, or over TCP since the last session
+    int rounds = 0;  // rounds through all baud rates on this line, or over TCP since the last session
     int of_config = 0, repeats = 0;
   };
   Tries tries_;
   std::size_t swept_ = 0;
 
-  /// Of the serial line; 0: it is none, or there was no session yet.
+  /// The baud rate of the serial line; 0: not a serial line, or no session yet.
   struct Rate {
     int baud = 0;
-    int start = 0, of_session = 0;  // of the newest session: when it opened, and later
+    int start = 0, of_session = 0;  // rates of the newest session: at its opening, and later
     bool raise_failed = false;
   };
   Rate rate_;
-  bool opened_here_ = false;  // not by another process, which would have raised its rate
-  bool resumable_ = false;    // the controller counts on from where we last heard of it
-  bool knows_link_ = false;   // it is the one of our session
+  // The session was opened by this object, not by a process that would have raised the baud rate.
+  bool opened_here_ = false;
+  // The controller continues to count from its last known values.
+  bool resumable_ = false;
+  // The link is the one on which the session was opened.
+  bool knows_link_ = false;
   struct Who {
     RobotName name;
     RobotParameters parameters;
@@ -201,10 +219,10 @@ class Session {
   std::string reason_;
   bool refused_ = false;
 
-  /// What is to be done with the link, oldest first.
+  /// The requested actions, oldest first.
   class Actions {
    public:
-    /// There must be room.
+    /// Requires room.
     SessionAction& add();
     std::optional<SessionAction> take();
     SessionAction& newest() { return ring_[(first_ + count_ - 1) % ring_.size()]; }

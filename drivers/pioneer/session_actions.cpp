@@ -1,4 +1,4 @@
-// What a session wants done, and when it wants to be asked again.
+// The actions of a session, and the times of its next turn.
 
 #include <algorithm>
 #include <cassert>

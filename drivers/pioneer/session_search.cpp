@@ -1,4 +1,4 @@
-// Finding the robot: its baud rate, sessions left open, synchronisation.
+// The search for the robot: its baud rate, sessions left open, synchronisation.
 
 #include <algorithm>
 #include <utility>
@@ -14,20 +14,21 @@ using namespace std::chrono_literals;
 using Kind = SessionAction::Kind;
 
 constexpr auto kAnswer = 300ms;    // the longest answer takes 50 ms at 9600 baud
-constexpr auto kSlowAnswer = 1s;   // over TCP, of a robot that has begun to answer
-constexpr auto kSynchronise = 8s;  // then give the link up, however lively it is
-constexpr int kRounds = 4;         // through all baud rates, without any answer
-constexpr int kDislodgeAfter = 3;  // of them: a controller may hang half way through an earlier synchronisation
-constexpr int kTriesOverTcp = 2;   // are a round where there are no baud rates, and all that one connection gets
-constexpr auto kSettle = 100ms;    // after CLOSE, until the last packets are through
-constexpr double kHalfRange_units = 16384.0;  // of the position counters' 15 reliable bits
-constexpr auto kAdapter = 20ms;               // USB adapters hold back what they send
+constexpr auto kSlowAnswer = 1s;   // over TCP, for a robot that has started to answer
+constexpr auto kSynchronise = 8s;  // after this time the link is given up, even if it delivers bytes
+constexpr int kRounds = 4;         // rounds through all baud rates without an answer
+// After this many rounds OPEN is sent, because a controller may hang in the middle of an earlier synchronisation.
+constexpr int kDislodgeAfter = 3;
+// Tries that make a round on a link without baud rates; a TCP connection gets only one round.
+constexpr int kTriesOverTcp = 2;
+constexpr auto kSettle = 100ms;               // after CLOSE, until the last packets have arrived
+constexpr double kHalfRange_units = 16384.0;  // half the range of the position counters' 15 reliable bits
+constexpr auto kAdapter = 20ms;               // for USB adapters, which delay their output
 constexpr const char* kNoAnswer = "no answer from the robot";
 
 std::string in_words(const RobotName& robot) {
   return "the robot \"" + robot.name + "\" is of unknown kind \"" + robot.subclass +
-         "\"; set daemon.pioneer.subclass to the kind it counts like, or distance_mm_per_unit (known: " +
-         known_subclasses() + ")";
+         "\"; set daemon.pioneer.subclass to the kind that it counts like (known: " + known_subclasses() + ")";
 }
 
 }  // namespace
@@ -56,13 +57,13 @@ void Session::begin(Clock::time_point now) {
   now_ = now;
   actions_.clear();
   search_.restart();
-  search_.add(rate_.of_session);  // a session that outlived its link goes on at the rate it had
+  search_.add(rate_.of_session);  // a session that outlived its link continues at the baud rate it had
   add_start_bauds();
   start_search();
   refused_ = false;
   tries_.of_round = 0;
   knows_link_ = false;
-  if (has_baud_) tries_.rounds = 0;  // over TCP a link is but one round long
+  if (has_baud_) tries_.rounds = 0;  // a TCP link lasts only one round
   try_baud();
 }
 
@@ -103,8 +104,9 @@ void Session::try_next_baud() {
   wait_until_sent();
 }
 
-/// What may make the robot answer on the next connection: whatever hinders it ends. It comes last on this one, since
-/// servers that hang up on CLOSE take long to listen again unless the client has hung up before.
+/// Sends what may make the robot answer on the next connection, because it ends a session that could prevent an answer.
+/// This is the last transmission on the link: a server that closes the connection on CLOSE accepts the next one only
+/// after a long time, unless the client closed it first.
 void Session::part() {
   if (!may_be_ours()) {
     if (tries_.rounds % kDislodgeAfter == 0) send(Command::open);
@@ -113,7 +115,7 @@ void Session::part() {
   give_up(kNoAnswer);
 }
 
-/// Says CLOSE at one rate after the other, for a session that was left open at a rate nobody remembers.
+/// Sends CLOSE at each baud rate in turn, to end a session that was left open at an unknown rate.
 void Session::sweep() {
   if (swept_ == kControllerBauds.size()) return settle();
   set_baud(kControllerBauds[swept_++]);
@@ -131,31 +133,34 @@ void Session::settle() {
 void Session::synchronise(const Packet& packet) {
   if (waiting_ != Wait::answer) return;
   if (packet_id::is_sip(packet.id())) return found_open();
-  if (packet.id() == packet_id::reboot) return settle();  // it counted differently: from the start
+  if (packet.id() == packet_id::reboot) return settle();  // the controller expected another sync number: start again
   if (packet.id() != sync_) return;
-  resumable_ = false;  // who synchronises has no session
+  resumable_ = false;  // a controller that synchronises has no session
   if (sync_ == kSync2) return introduce(packet.data.subspan(1));
   send_sync(static_cast<std::uint8_t>(sync_ + 1));
 }
 
-/// Whether our session may go on: the line broke so lately that its position cannot have wrapped unseen.
+/// True: this object's session may continue, because the line broke so recently that the position counters cannot
+/// have wrapped unnoticed.
 bool Session::may_be_ours() const {
   const double reach_m = settings_.max_speed_m_s * in_seconds(now_ - last_sip_);
   return resumable_ && reach_m < kHalfRange_units * who_.parameters.distance_m_per_unit;
 }
 
-/// Whether the session found open is our own.
+/// True: the open session that was found is this object's own.
 bool Session::is_ours() const { return may_be_ours() && rate_.baud == rate_.of_session; }
 
-/// One that has been silent for so long that its counters may have wrapped begins another odometry, but is not closed
-/// on its own connection: there are servers that hang up on CLOSE, and never listen again.
+/// A session that was silent for so long that its counters may have wrapped starts another odometry. On the connection
+/// on which it was opened it is not closed, because some servers close the connection on CLOSE and never accept another
+/// one.
 void Session::found_open() {
   if (is_ours()) return resume();
   if (!knows_link_) return close_old_session();
   opened_now();
 }
 
-/// What another process was told of the robot is asked for again; odometry comes meanwhile.
+/// Continues the session. The configuration of a session of another process is requested again; odometry arrives
+/// meanwhile.
 void Session::resume() {
   ++counts_.resumed;
   tries_.rounds = 0;
@@ -166,7 +171,8 @@ void Session::resume() {
   ask_for_config();
 }
 
-/// The controller is in a session already: it goes back to its start rate or stays where it is.
+/// Closes a session that another program left open. The controller then returns to its start baud rate, or keeps the
+/// current one.
 void Session::close_old_session() {
   ++counts_.old_sessions;
   resumable_ = false;

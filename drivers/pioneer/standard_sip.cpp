@@ -7,7 +7,8 @@
 namespace azimuth::pioneer {
 namespace {
 
-/// The fields before the sonar block, in their order on the wire, for reading as for writing. False: not all done.
+/// Visits the fields before the sonar block in their order on the wire, for reading as well as for writing. False: the
+/// fields ended early.
 template <class Sip, class Field>
 bool each_before_sonars(Sip& sip, Field field) {
   return field(sip.x_units) && field(sip.y_units) && field(sip.heading_units) && field(sip.left_velocity_units) &&
@@ -25,7 +26,7 @@ bool each_after_sonars(Sip& sip, Field field) {
          field(sip.temperature_C) && field(sip.charge_percent) && field(sip.time_us) && field(sip.flags3);
 }
 
-/// The sonars that are whole; sonar_count becomes their number.
+/// Reads the complete sonars, and sets sonar_count to their number.
 bool read_sonars(FieldReader& reader, StandardSip& sip) {
   const std::size_t announced = sip.sonar_count;
   for (sip.sonar_count = 0; sip.sonar_count < announced; ++sip.sonar_count) {

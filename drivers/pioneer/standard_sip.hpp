@@ -8,8 +8,8 @@
 
 namespace azimuth::pioneer {
 
-/// The standard server information packet: what the robot reports each cycle, in its own units (RobotParameters turns
-/// them into metres and radians).
+/// The standard server information packet: the robot's report of each cycle, in its own units (RobotParameters converts
+/// them to metres and radians).
 struct StandardSip {
   /// Bits of `flags`.
   static constexpr unsigned kMotorsEnabled = 1U << 0U, kEmergencyStop = 1U << 5U, kChargerPower = 1U << 10U;
@@ -22,27 +22,28 @@ struct StandardSip {
   static constexpr std::size_t kMaxSonars = (kMaxDataSize - 20) / 3;
 
   std::uint8_t id = packet_id::sip_stopped;
-  std::uint16_t x_units = 0, y_units = 0;  ///< counters; 15 bits of them are reliable
+  std::uint16_t x_units = 0, y_units = 0;  ///< counters; only 15 of their bits are reliable
   std::int16_t heading_units = 0;
   std::int16_t left_velocity_units = 0, right_velocity_units = 0;
   std::uint8_t battery_decivolts = 0;
   std::uint8_t left_stall_and_rear_bumpers = 0;    ///< bit 0 stall, bits 1 to 7 bumpers
-  std::uint8_t right_stall_and_front_bumpers = 0;  ///< likewise
-  std::int16_t control_units = 0;                  ///< heading the controller wants
+  std::uint8_t right_stall_and_front_bumpers = 0;  ///< bit 0 stall, bits 1 to 7 bumpers
+  std::int16_t control_units = 0;                  ///< heading that the controller aims at
   std::uint16_t flags = 0;
   std::uint8_t compass_2deg = 0;
   std::uint8_t sonar_count = 0;
-  std::array<SonarReading, kMaxSonars> sonars{};  ///< new readings only
+  std::array<SonarReading, kMaxSonars> sonars{};  ///< only new readings
 
-  // Firmware ends the packet after any of these.
-  /// What is connected to the controller, apart from wheels and sonars.
+  // The fields below are optional. Firmware may end the packet after any of them.
+  /// The state of the controller's other inputs and outputs.
   struct Ports {
     std::optional<std::uint8_t> grip_state, analog_port, analog, digital_in, digital_out;
     friend bool operator==(const Ports&, const Ports&) = default;
   };
   Ports ports;
   std::optional<std::uint16_t> battery_x10_decivolts;
-  std::optional<std::uint8_t> charge_state;  ///< 0 not charging, 1 bulk, 2 overcharge, 3 float, 4 balance, 255 unknown
+  /// 0 not charging, 1 bulk, 2 overcharge, 3 float, 4 balance, 255 unknown.
+  std::optional<std::uint8_t> charge_state;
   std::optional<std::int16_t> rotation_ddeg_per_s;
   std::optional<std::uint16_t> fault_flags;
   std::optional<std::int16_t> lateral_velocity_mm_per_s;
@@ -57,7 +58,7 @@ struct StandardSip {
   std::uint8_t front_bumpers() const { return static_cast<std::uint8_t>(right_stall_and_front_bumpers >> 1U); }
   bool motors_enabled() const { return (flags & kMotorsEnabled) != 0; }
   bool emergency_stop() const { return (flags & kEmergencyStop) != 0; }
-  /// The wider field where there is one: robots with 24 V batteries exceed the narrow one.
+  /// Uses the wider field if it is present, because 24 V batteries exceed the range of the narrow one.
   double battery_volts() const {
     return 0.1 * (battery_x10_decivolts && *battery_x10_decivolts > 0 ? *battery_x10_decivolts : battery_decivolts);
   }
@@ -65,10 +66,10 @@ struct StandardSip {
   friend bool operator==(const StandardSip&, const StandardSip&) = default;
 };
 
-/// Nothing when `data` is no standard SIP or ends before the sonar count.
+/// None when `data` is not a standard SIP, or ends before the sonar count.
 std::optional<StandardSip> decode_sip(ByteView data);
 
-/// Optional fields up to the first that is missing; sonars only as far as they fit.
+/// Writes the optional fields up to the first missing one, and as many sonars as fit.
 Frame encode_sip(const StandardSip& sip);
 
 }  // namespace azimuth::pioneer

@@ -48,7 +48,8 @@ bool Telnet::passes(std::uint8_t byte) {
   return true;
 }
 
-/// A first 0xFF that is none of telnet's is lost: the middle of a packet, which nobody needs.
+/// A first 0xFF that does not belong to telnet is dropped. It lies in the middle of a packet that cannot be used
+/// anyway.
 bool Telnet::begin(std::uint8_t byte) {
   if (state_ == State::beginning) {
     state_ = byte == kCommand ? State::begun_by_ff : State::raw;

@@ -6,20 +6,20 @@
 
 namespace azimuth::pioneer {
 
-/// What a serial-to-Ethernet bridge in telnet mode makes of the robot's bytes, undone: 0xFF comes twice, and commands
-/// come in between (RFC 854). Such a bridge begins a connection with commands; one in raw mode never does, as what a
-/// controller sends first begins with 0xFA, so its bytes are left alone.
+/// Undoes the changes that a serial-to-Ethernet bridge in telnet mode makes to the robot's bytes: it sends 0xFF twice,
+/// and inserts commands (RFC 854). Such a bridge begins a connection with commands. A bridge in raw mode never does,
+/// because a controller's first byte is 0xFA, so its bytes are left unchanged.
 ///
 /// Thread contract: thread-bound; allocates nothing.
 class Telnet {
  public:
   static constexpr std::uint8_t kCommand = 0xFF;
 
-  /// The next bytes of the connection, in place; how many of them are the robot's.
+  /// Processes the next bytes of the connection in place. Returns how many of them are the robot's.
   std::size_t undo(std::span<std::uint8_t> bytes);
   bool is_spoken() const { return spoken_; }
-  /// The answer to send next; nothing: none is due. Binary transmission alone is agreed to: without it a bridge may
-  /// put something behind each 0x0D.
+  /// The answer to send next; none: there is none. Only binary transmission is agreed to, because without it a bridge
+  /// may insert a byte after each 0x0D.
   struct Answer {
     std::uint8_t command, option;
   };
@@ -35,7 +35,7 @@ class Telnet {
   State state_ = State::beginning;
   bool spoken_ = false;
   std::uint8_t command_ = 0;
-  // Binary transmission, each way, was offered and is to be agreed to; was agreed to.
+  // For each direction: binary transmission was offered and waits for an answer; it was agreed to.
   bool offered_[2] = {}, agreed_[2] = {};
 };
 

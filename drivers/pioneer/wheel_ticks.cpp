@@ -8,12 +8,13 @@
 namespace azimuth::pioneer {
 namespace {
 
-constexpr double kStretch_m = 0.3;      // over which the two are compared
-constexpr double kAgreement = 0.03;     // of the path; the firmware rounds its own conversion
-constexpr double kAgreement_m = 0.008;  // and whole millimetres at both ends
+constexpr double kStretch_m = 0.3;  // path length over which ticks and SIP are compared
+constexpr double kAgreement =
+    0.03;  // largest difference as a share of the path; the firmware rounds its own conversion
+constexpr double kAgreement_m = 0.008;  // added to the largest difference, for whole millimetres at both ends
 constexpr double kStepAgreement = 0.25, kStepAgreement_m = 0.015;
 
-/// Counters wrap modulo 2^32.
+/// The counters wrap modulo 2^32.
 double difference(std::int32_t newer, std::int32_t older) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(newer) - static_cast<std::uint32_t>(older));
 }
@@ -33,7 +34,7 @@ std::optional<TickMotion> WheelTicks::advance(const EncoderPacket& packet, doubl
   return motion;
 }
 
-/// Path lengths, so that a stretch driven to and fro is one.
+/// Compares path lengths, so that driving back and forth counts as one stretch.
 void WheelTicks::compare(double ticks_m, double sip_m) {
   ticks_m_ += std::copysign(1.0, sip_m) * ticks_m;
   sip_m_ += std::abs(sip_m);

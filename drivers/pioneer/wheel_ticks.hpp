@@ -6,14 +6,14 @@
 
 namespace azimuth::pioneer {
 
-/// What the wheels' ticks say of the motion over a while.
+/// The motion measured by the wheels' ticks.
 struct TickMotion {
   double distance_m = 0.0;
   std::optional<double> turn_rad;  ///< only with a calibrated number of ticks per turn
 };
 
-/// The motion in ticks, trusted once it has agreed with that of the standard SIP over a stretch: a wrong number of
-/// ticks per millimetre, or a wheel that counts backwards, would scale the odometry silently.
+/// The motion in wheel ticks. It is trusted once it has agreed with the motion of the standard SIP over some distance,
+/// because a wrong number of ticks per millimetre, or a wheel that counts backwards, would silently scale the odometry.
 ///
 /// Thread contract: thread-bound; never allocates.
 class WheelTicks {
@@ -22,14 +22,14 @@ class WheelTicks {
   WheelTicks(double ticks_per_mm, double ticks_per_turn) : per_mm_(ticks_per_mm), per_turn_(ticks_per_turn) {}
 
   bool trusted() const { return trusted_; }
-  /// The ticks came apart from the SIP's distance, or stopped coming.
+  /// To be called when the ticks disagree with the SIP's distance, or stop arriving.
   void distrust() {
     trusted_ = false;
     ticks_m_ = sip_m_ = path_m_ = 0.0;
   }
 
-  /// The motion since the packet before, over which the SIP says the robot went `sip_forward_m` (backwards: negative).
-  /// Nothing for the first, or when the two differ too much for a single one.
+  /// The motion since the previous packet, over which the SIP reports a distance of `sip_forward_m` (negative:
+  /// backwards). None for the first packet, or when the two differ too much in a single step.
   std::optional<TickMotion> advance(const EncoderPacket& packet, double sip_forward_m);
 
  private:
@@ -38,7 +38,8 @@ class WheelTicks {
   double per_mm_, per_turn_;
   bool trusted_ = false;
   std::optional<EncoderPacket> last_;
-  double ticks_m_ = 0.0, sip_m_ = 0.0, path_m_ = 0.0;  // over the present stretch
+  double ticks_m_ = 0.0, sip_m_ = 0.0,
+         path_m_ = 0.0;  // lengths by ticks, by SIP and of the path, over the current stretch
 };
 
 }  // namespace azimuth::pioneer

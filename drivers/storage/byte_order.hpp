@@ -1,5 +1,5 @@
 #pragma once
-// Numbers as bytes, little-endian on every machine and doubles bit for bit, and their checksum. Internal to
+// Numbers as bytes, little-endian on every machine, doubles bit for bit, and their checksum. Internal to
 // drivers/storage.
 
 #include <bit>
@@ -14,7 +14,7 @@
 
 namespace azimuth {
 
-/// Into storage of a size that is known beforehand.
+/// Writes numbers into storage of a size known in advance.
 class ByteWriter {
  public:
   ByteWriter(std::vector<std::byte>& out, std::size_t size) : out_(out) {
@@ -40,7 +40,7 @@ class ByteWriter {
   std::size_t at_ = 0;
 };
 
-/// Of bytes that are long enough: the caller has compared the sizes.
+/// Reads numbers. The caller has checked that the bytes are long enough.
 class ByteReader {
  public:
   explicit ByteReader(Bytes bytes) : bytes_(bytes) {}
@@ -62,7 +62,7 @@ class ByteReader {
   std::size_t at_ = 0;
 };
 
-/// CRC-32, as zlib has it.
+/// CRC-32 as computed by zlib.
 inline std::uint32_t checksum(Bytes bytes) {
   return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }

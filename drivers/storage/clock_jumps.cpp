@@ -11,10 +11,10 @@
 namespace azimuth {
 namespace {
 
-constexpr std::size_t kLook = 8;      // samples to each side of where the clock may have been set
-constexpr std::size_t kEnough = 3;    // of them that agree: fewer are wild stamps, or came late
-constexpr std::size_t kLookFar = 50;  // samples, for what should stay the same
-constexpr std::size_t kBorder = 20;   // readings of odometry near a jump, where samples of both settings may come
+constexpr std::size_t kLook = 8;      // samples examined on each side of a possible clock jump
+constexpr std::size_t kEnough = 3;    // samples of these that must agree; fewer are wild or late stamps
+constexpr std::size_t kLookFar = 50;  // samples over which a lead must stay the same
+constexpr std::size_t kBorder = 20;   // odometry readings near a jump, where samples of both settings may occur
 constexpr Duration kLeastForward{1'000'000};
 
 using Durations = std::vector<Duration>;
@@ -26,7 +26,7 @@ std::optional<Duration> median(Durations values) {
   return *middle;
 }
 
-/// The usual time from one to the next; zero when none follows another.
+/// The median of the intervals; zero when there are none.
 template <class Stamps, class StampOf>
 Duration usual_interval(const Stamps& stamps, StampOf stamp_of) {
   Durations intervals;
@@ -44,7 +44,7 @@ Duration usual_interval(const std::vector<Stamp>& stamps) {
 std::size_t look_back(std::size_t i, std::size_t count) { return i - std::min(i, count); }
 std::size_t look_ahead(std::size_t i, std::size_t count, std::size_t size) { return std::min(i + count, size); }
 
-/// Whether stamps are set back from `i` on: not by a wild one, nor where a few were overtaken.
+/// True: the stamps are set back from `i` on. A single wild stamp, or a few late samples, do not count.
 bool is_set_back(const std::vector<Stamp>& stamps, std::size_t i) {
   if (stamps[i] > stamps[i - 1]) return false;
   const auto begin = stamps.begin();
@@ -55,7 +55,8 @@ bool is_set_back(const std::vector<Stamp>& stamps, std::size_t i) {
   return std::min(above, below) >= static_cast<std::ptrdiff_t>(kEnough);
 }
 
-/// Whether stamps leap ahead at `i` of a reference that goes on: `leads` is what each is ahead of that.
+/// True: the stamps jump ahead at `i` while a reference continues. `leads` is the lead of each stamp over the
+/// reference.
 bool is_set_forward(const std::vector<Stamp>& stamps, const Durations& leads, std::size_t i, Duration interval) {
   const Duration leap = stamps[i] - stamps[i - 1];
   if (leap < std::max(kLeastForward, 10 * interval)) return false;
@@ -68,11 +69,11 @@ bool is_set_forward(const std::vector<Stamp>& stamps, const Durations& leads, st
   return after - before > leap / 2;
 }
 
-/// Where a clock was set, and by how much, as it shows in one stream.
+/// A jump of a clock, as found in one stream.
 struct Setting {
-  std::size_t index = 0;    // of the first sample after it
-  std::uint64_t place = 0;  // in the recording
-  Duration by{};
+  std::size_t index = 0;    // index in the stream of the first sample after the jump
+  std::uint64_t place = 0;  // number of this sample among all recorded samples
+  Duration by{};            // negative: the clock was set back
 };
 
 Durations leads_over_recorder(const ArrivedStamps& stream) {
@@ -83,13 +84,14 @@ Durations leads_over_recorder(const ArrivedStamps& stream) {
   return leads;
 }
 
-/// Whether the recorder's clock says when samples came, and not something else.
+/// True: the recorder's times are times of arrival.
 bool tells_arrivals(const ArrivedStamps& stream, Duration interval) {
   const Duration recorded = usual_interval(stream.arrivals, [](const Arrival& each) { return each.recorded; });
   return 2 * recorded >= interval && recorded <= 2 * interval;
 }
 
-/// Of the odometry, which comes at even intervals. The recorder's clock is asked where it went on.
+/// Finds the jumps of the odometry, which arrives at even intervals. The recorder's clock shows where the recording
+/// continued without a gap.
 std::vector<Setting> settings_of(const ArrivedStamps& stream) {
   std::vector<Setting> settings;
   const Duration interval = usual_interval(stream.stamps);
@@ -107,7 +109,7 @@ std::vector<Setting> settings_of(const ArrivedStamps& stream) {
   return settings;
 }
 
-/// The odometry as the other streams are compared with it.
+/// The odometry as the reference for the other streams.
 class Reference {
  public:
   Reference(const ArrivedStamps& odometry, std::vector<Setting> settings)
@@ -121,10 +123,10 @@ class Reference {
 
   const std::vector<Stamp>& moved() const { return moved_; }
   const std::vector<Setting>& settings() const { return settings_; }
-  /// What the odometry said last when something came, and what that became.
+  /// The odometry's last stamp when the sample at `place` arrived, and that stamp after its shift.
   Stamp said_at(std::uint64_t place) const { return odometry_.stamps[index_at(place)]; }
   Stamp moved_at(std::uint64_t place) const { return moved_[index_at(place)]; }
-  /// How many settings surely were before something came, and surely or perhaps.
+  /// Number of jumps that certainly came before the sample at `place`, and number of those that may have.
   std::pair<std::size_t, std::size_t> settings_before(std::uint64_t place) const {
     std::size_t surely = 0, perhaps = 0;
     const std::size_t last = odometry_.arrivals.size() - 1;
@@ -146,7 +148,7 @@ class Reference {
   std::vector<Setting> settings_;
 };
 
-/// Whether the two came side by side, and not one after the other, as where a program sorted them.
+/// True: the stream and the odometry arrived interleaved. They did not if a program has sorted the recording by stream.
 bool came_together(const ArrivedStamps& stream, const Reference& reference, std::size_t readings) {
   std::size_t different = 1;
   for (std::size_t i = 1; i < stream.arrivals.size(); ++i)
@@ -154,7 +156,7 @@ bool came_together(const ArrivedStamps& stream, const Reference& reference, std:
   return 4 * different >= std::min(readings, stream.arrivals.size());
 }
 
-/// What the samples from `begin` to `end` are ahead of what `reference(place)` said: in the middle.
+/// Median lead of the samples from `begin` to `end` over `reference(place)`.
 template <class ReferenceAt>
 std::optional<Duration> lead(const ArrivedStamps& stream, std::size_t begin, std::size_t end, ReferenceAt reference) {
   Durations leads;
@@ -162,8 +164,8 @@ std::optional<Duration> lead(const ArrivedStamps& stream, std::size_t begin, std
   return median(std::move(leads));
 }
 
-/// Whether a stream has the odometry's clock: across a setting it stays by the odometry. So does what is not there on
-/// both sides.
+/// True: the stream has the odometry's clock, because it keeps its lead over the odometry across a jump. Also true if
+/// it has no samples on one side.
 bool has_setting(const ArrivedStamps& stream, const Reference& reference, const Setting& setting) {
   const auto first = std::ranges::lower_bound(stream.arrivals, setting.place, {}, &Arrival::place);
   const auto index = static_cast<std::size_t>(first - stream.arrivals.begin());
@@ -173,7 +175,8 @@ bool has_setting(const ArrivedStamps& stream, const Reference& reference, const 
   return !before || !after || std::chrono::abs(*after - *before) <= std::chrono::abs(setting.by) / 2;
 }
 
-/// Moves a stream of the odometry's clock as that was moved. Near a setting a sample is of what brings it closer.
+/// Shifts a stream on the odometry's clock like the odometry. Near a jump, a sample belongs to the setting that brings
+/// it closer to the odometry.
 void move_with(const Reference& reference, ArrivedStamps& stream) {
   Durations sums{Duration{}};
   for (const Setting& setting : reference.settings())
@@ -189,7 +192,7 @@ void move_with(const Reference& reference, ArrivedStamps& stream) {
   }
 }
 
-/// Moves what has a clock of its own, by the odometry.
+/// Shifts a stream on a clock of its own, with the odometry as the reference.
 void move_alone(const Reference& reference, ArrivedStamps& stream, std::vector<Setting>& found) {
   const auto moved = [&](std::uint64_t place) { return reference.moved_at(place); };
   const Duration interval = usual_interval(stream.stamps);
@@ -211,7 +214,8 @@ void move_alone(const Reference& reference, ArrivedStamps& stream, std::vector<S
   }
 }
 
-/// Stamps of damaged recordings may be anything: within a thousand years of 1970 differences have room.
+/// Limits the stamps, which can have any value in a damaged recording, to about a thousand years around 1970, so that
+/// differences do not overflow.
 void keep_in_range(std::vector<ArrivedStamps>& streams) {
   constexpr Stamp kLatest{Duration{std::int64_t{1} << 55U}}, kEarliest{-kLatest.time_since_epoch()};
   for (ArrivedStamps& stream : streams) {
@@ -220,7 +224,7 @@ void keep_in_range(std::vector<ArrivedStamps>& streams) {
   }
 }
 
-/// Of the parts between jumps that end a drive, all but the one with the most odometry.
+/// Among the parts between jumps that end a drive, selects the one with the most odometry.
 class Parts {
  public:
   Parts(const ArrivedStamps& odometry, const std::vector<Setting>& settings, const std::vector<bool>& ends_drive) {
@@ -260,7 +264,7 @@ std::string text(const ClockJump& jump) {
 
 bool odometry_goes_on(const std::vector<OdometryReading>& readings, std::size_t index) {
   constexpr double kSlack_m = 0.3;
-  if (readings[index].origin != readings[index - 1].origin) return true;  // an odometer that says that it began anew
+  if (readings[index].origin != readings[index - 1].origin) return true;  // the odometer itself reports its restart
   const auto step_m = [&](std::size_t i) {
     return (readings[i].T_odom_body.position() - readings[i - 1].T_odom_body.position()).norm();
   };

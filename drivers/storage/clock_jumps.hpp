@@ -1,6 +1,6 @@
 #pragma once
-// Recordings of a machine whose clock was set while it recorded: which samples are of which setting, by the order in
-// which they came, and stamps that go on as if it had not been.
+// Repairs recordings of a machine whose clock was set during the recording. The order of arrival tells which samples
+// belong to which setting of the clock, and the stamps are shifted so that they continue without a jump.
 //
 // Thread contract: reentrant.
 
@@ -16,49 +16,50 @@
 
 namespace azimuth {
 
-/// How a sample came to the recording.
+/// The arrival of a sample at the recorder.
 struct Arrival {
-  std::uint64_t place = 0;  ///< counts what was recorded, of all kinds
-  Stamp recorded{};         ///< on the recorder's clock, which may have been set as well
+  std::uint64_t place = 0;  ///< number of the sample among all recorded samples
+  Stamp recorded{};         ///< time on the recorder's clock, which may have been set as well
 };
 
-/// The samples of one kind, in the order in which they came.
+/// The samples of one kind in the order of their arrival.
 struct ArrivedStamps {
   std::vector<Stamp> stamps;
-  std::vector<Arrival> arrivals;  ///< as many
+  std::vector<Arrival> arrivals;  ///< same length as `stamps`
 };
 
 struct ClockJump {
   double at_s = 0.0;  ///< since the first odometry reading
-  double by_s = 0.0;  ///< negative: it was set back
-  /// The robot was elsewhere after it: another drive, or a simulation that began anew. One part alone can be used.
+  double by_s = 0.0;  ///< negative: the clock was set back
+  /// The robot was at a different place after the jump: another drive, or a restarted simulation. Only one of the parts
+  /// can be used.
   bool ends_drive = false;
   friend bool operator==(const ClockJump&, const ClockJump&) = default;
 };
 
-/// "the clock was set back 3600.0 s at 27.0 s (what came later is moved by as much)".
+/// Describes a jump, e.g. "the clock was set back 3600.0 s at 27.0 s (what came later is moved by as much)".
 std::string text(const ClockJump& jump);
 
-/// What mend_clock_jumps() found. Stamps were moved; `left_out[stream][sample]` are those of parts that are not used,
-/// where there are any.
+/// The result of mend_clock_jumps(). `left_out[stream][sample]` marks the samples of parts that are not used, if there
+/// are any.
 struct MendedClocks {
   std::vector<ClockJump> jumps;
-  std::vector<std::vector<bool>> left_out;  ///< empty: none
+  std::vector<std::vector<bool>> left_out;  ///< empty: no sample is left out
 };
 
-/// Finds where the clock of the samples was set, by more than a few of their intervals: a set back shows in their
-/// order, one forward in that the recording went on without a gap. An outage is none of these, nor is a single wild
-/// stamp, or a few that came late. All later stamps are moved so that they go on; what is of another clock than the
-/// odometry, which is the first stream, is left as it is, or moved by itself. `goes_on(i)` says whether odometry
-/// reading i continues the drive of the one before. Where it does not, the longest part is used, of all streams the
-/// same.
+/// Finds where the clock of the samples was set by more than a few sample intervals. A clock set back shows in the
+/// order of the stamps; a clock set forward shows in a recording that continued without a gap. An outage, a single wild
+/// stamp, and a few late samples are not clock jumps. All later stamps are shifted so that they continue. The odometry
+/// is the first stream; stamps on a clock other than the odometry's are left alone, or shifted separately. `goes_on(i)`
+/// tells whether odometry reading i continues the drive of the previous reading. Where it does not, only the longest
+/// part is used, the same for all streams.
 MendedClocks mend_clock_jumps(std::vector<ArrivedStamps>& streams, const std::function<bool(std::size_t)>& goes_on);
 
-/// Whether the robot may have come from the one pose to the next, as it drives around there.
+/// True: the robot can have moved from the previous pose to this one, given its motion around there.
 bool odometry_goes_on(const std::vector<OdometryReading>& readings, std::size_t index);
 
-/// The same of samples in place, taking out what is not used and counting it: `others` are tuples of arrivals, samples
-/// and count.
+/// Like mend_clock_jumps(), but changes the samples themselves. Removes the samples that are not used, and counts them.
+/// `others` are tuples of arrivals, samples and count.
 template <class... Others>
 std::vector<ClockJump> mend_clock_jumps(const std::vector<Arrival>& arrivals, std::vector<OdometryReading>& odometry,
                                         std::uint64_t& gone, const Others&... others) {

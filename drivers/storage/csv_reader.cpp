@@ -17,7 +17,7 @@ std::string_view trimmed(std::string_view text, char separator) {
   return text;
 }
 
-/// Names of columns hold none of these, so whatever stands in the header separates.
+/// The first of these characters in the header is the separator, because names of columns contain none of them.
 char separator_of(std::string_view header) {
   for (const char separator : {',', ';', '\t'})
     if (header.find(separator) != std::string_view::npos) return separator;
@@ -27,14 +27,14 @@ char separator_of(std::string_view header) {
 std::string_view without_unit(std::string_view name) { return name.substr(0, name.rfind('_')); }
 std::string unit_of(std::string_view name) { return std::string(name.substr(without_unit(name).size() + 1)); }
 
-/// What somebody who wrote this column's name, or this number in it, may have meant instead; empty: no idea.
+/// A hint at a likely mistake in a number; empty: none.
 std::string misread_number(std::string_view text) {
   std::string with_point(text);
   std::ranges::replace(with_point, ',', '.');
   return parse_double(with_point) ? ": a decimal comma? Numbers take a point" : "";
 }
 
-/// What is out of range although no more than a right angle is so for another reason.
+/// A hint at degrees, for angles beyond a right angle; smaller values are out of range for another reason.
 std::string misread_unit(std::string_view column, double value) {
   constexpr double kRightAngle_rad = 1.58;
   return column.ends_with("_rad") && std::abs(value) > kRightAngle_rad ? ": in degrees?" : "";

@@ -1,5 +1,5 @@
 #pragma once
-// Strict tables: one header line, then rows of as many fields. Internal to drivers/storage.
+// Strict tables: one header line, then rows with the same number of fields. Internal to drivers/storage.
 
 #include <cstddef>
 #include <optional>
@@ -18,24 +18,24 @@ struct CsvColumn {
   bool required = true;
 };
 
-/// Walks the rows of a table. Columns may stand in any order; unknown, missing and repeated ones are errors, as are
-/// rows with too few or too many fields. Fields are separated by commas or, where the header has none, by semicolons or
-/// tabs; blanks around them are passed over, and there is no quoting. Lines end with LF or CRLF, and a byte order mark
-/// is passed over. Whatever is wrong goes to `errors`, with its likely cause, and the walk continues.
+/// Reads the rows of a table. Columns may be in any order. Unknown, missing and repeated columns are errors, and so are
+/// rows with too few or too many fields. Fields are separated by commas, or by semicolons or tabs if the header has no
+/// comma. Blanks around fields are ignored, and there is no quoting. Lines end with LF or CRLF; a byte order mark is
+/// ignored. Every error goes to `errors` with its likely cause, and reading continues.
 ///
-/// Borrows everything it is given. Thread contract: thread-bound.
+/// Borrows all its arguments. Thread contract: thread-bound.
 class CsvReader {
  public:
   CsvReader(std::string_view text, std::span<const CsvColumn> columns, FileErrorList& errors);
 
-  /// Goes to the next row with the right number of fields; false at the end, or when the header is wrong.
+  /// Goes to the next row with the right number of fields. False at the end, or when the header is wrong.
   bool next();
 
   int line() const { return line_; }
   void fail(std::string message) { errors_.add(line_, std::move(message)); }
 
-  // Of the present row, by the column's index in `columns`. What cannot be read, or is not plausible, is an error and
-  // nothing; so is an absent column, without an error.
+  // The functions below read the current row by the column's index in `columns`. A field that cannot be read, or is
+  // implausible, is reported as an error and gives none. An absent column gives none without an error.
   bool has(std::size_t column) const { return place_[column].has_value(); }
   std::string_view field(std::size_t column) const;  ///< empty when the column is absent
   std::optional<Stamp> seconds(std::size_t column);
@@ -52,10 +52,10 @@ class CsvReader {
   std::string_view rest_;
   std::span<const CsvColumn> columns_;
   FileErrorList& errors_;
-  std::vector<std::optional<std::size_t>> place_;  // of each column among the fields
+  std::vector<std::optional<std::size_t>> place_;  // position of each column among the fields
   std::vector<std::string_view> fields_;
   char separator_ = ',';
-  std::size_t width_ = 0;  // fields in the header; 0: header is wrong
+  std::size_t width_ = 0;  // number of fields in the header; 0: the header is wrong
   int line_ = 0;
 };
 

@@ -17,25 +17,26 @@ struct EventTotals {
   std::uint64_t damaged_bytes = 0;
 };
 
-/// The files of a recording: the log itself, with those numbered after it that may go on where it ends (lcm-logger
-/// --split-mb: drive.lcm.00, drive.lcm.01), or the segments of a session folder in their order.
+/// The files of a recording. For a log these are the log itself and the numbered logs that may continue it (lcm-logger
+/// --split-mb: drive.lcm.00, drive.lcm.01); for a session folder, its segments in order.
 std::vector<std::filesystem::path> log_files(const std::filesystem::path& log_or_session);
 
-/// What a file without one whole event is instead, for a person.
+/// A sentence for a person about the contents of a file that holds no complete event.
 std::string no_log(const std::filesystem::path& file);
 
-/// Whether a numbered log goes on where the one before ended: the next recording of a day is numbered likewise.
+/// True: a numbered log continues where the previous one ended. The next recording of the same day may have the next
+/// number, but does not continue it.
 constexpr bool goes_on(std::int64_t last_us, std::int64_t first_us) {
   return first_us >= last_us - 1'000'000 && first_us <= last_us + 5'000'000;
 }
 
-/// Where the data of an event lies.
+/// The position of an event's data.
 struct EventPlace {
   std::filesystem::path file;
   std::uint64_t offset = 0;
 };
 
-/// Calls `use(event)`, or `use(event, place)`, for each whole event of a log or session.
+/// Calls `use(event)` or `use(event, place)` for each complete event of a log or session.
 template <class Use>
 FileResult<EventTotals> each_event(const std::filesystem::path& log_or_session, Use use) {
   EventTotals totals;
@@ -44,7 +45,7 @@ FileResult<EventTotals> each_event(const std::filesystem::path& log_or_session, 
   std::int64_t last_us = 0;
   for (const std::filesystem::path& file : log_files(log_or_session)) {
     FileResult<EventLogReader> log = EventLogReader::open(file);
-    // A daemon at work may have deleted a segment since the folder was listed.
+    // A running daemon may have deleted a segment since the folder was listed.
     if (!log && file != log_or_session && !std::filesystem::exists(file, ignored)) continue;
     if (!log) return failure(log.error());
     bool is_first = file != log_or_session && !is_session;

@@ -41,7 +41,7 @@ std::error_code EventLogWriter::flush() {
     lost_events_ += waiting_events_;
     if (::ftruncate(fd_.get(), static_cast<off_t>(whole_size_)) == 0) {
       ::lseek(fd_.get(), static_cast<off_t>(whole_size_), SEEK_SET);
-    }  // else part of an event stays behind, which readers skip
+    }  // otherwise a part of an event stays in the file, and readers skip it
   }
   waiting_events_ = 0;
   buffer_.clear();

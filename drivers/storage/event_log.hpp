@@ -20,15 +20,15 @@ class EventLogReader {
  public:
   static FileResult<EventLogReader> open(const std::filesystem::path& file);
 
-  /// The next whole event; borrows from the reader. Nothing at the end.
+  /// The next complete event, which borrows from the reader. None at the end.
   std::optional<LogEvent> next() { return scanner_.next(); }
 
-  /// Where the data of an event of this reader begins in the file.
+  /// Position in the file of the data of an event from this reader.
   std::uint64_t offset_of(const LogEvent& event) const {
     return static_cast<std::uint64_t>(event.data.data() - file_.bytes().data());
   }
 
-  /// Bytes skipped so far, see EventScanner.
+  /// Number of bytes skipped so far, see EventScanner.
   std::uint64_t damaged_bytes() const { return scanner_.damaged_bytes(); }
 
  private:
@@ -38,35 +38,39 @@ class EventLogReader {
   EventScanner scanner_;
 };
 
-/// Writes a log file. Events reach the file whole and in order, kBufferSize bytes or more at a time; what a full disk
-/// cuts off is taken back, so that the file ends with a whole event and writing may be tried again.
+/// Writes a log file. Events reach the file complete and in order, in pieces of at least kBufferSize. A partial event
+/// caused by a full disk is removed again, so that the file ends with a complete event and writing can be tried again.
 /// Thread contract: thread-bound. write() allocates only for an event larger than kBufferSize.
 class EventLogWriter {
  public:
-  /// Makes the file, or empties it.
+  /// Creates the file, or empties it.
   static FileResult<EventLogWriter> create(const std::filesystem::path& file);
   EventLogWriter(EventLogWriter&&) = default;
   EventLogWriter(const EventLogWriter&) = delete;
   EventLogWriter& operator=(EventLogWriter&&) = delete;
   EventLogWriter& operator=(const EventLogWriter&) = delete;
-  /// Flushes; call flush() first to learn of errors.
+  /// Flushes. Call flush() before to get errors.
   ~EventLogWriter();
 
-  /// Appends an event, numbered by the writer. Refused (std::errc::invalid_argument) when its lengths are beyond the
-  /// limits of event_codec.hpp; otherwise an error is that of the file, and the event is lost with all that waited
+  /// Appends an event and numbers it. std::errc::invalid_argument: the event was refused because its lengths exceed the
+  /// limits of event_codec.hpp. Any other error comes from the file; the event is then lost, with all events buffered
   /// since the last flush.
   std::error_code write(std::int64_t utime_us, std::string_view channel, Bytes data);
 
-  /// Hands everything to the kernel: from then on it survives the end of this process, however it ends.
+  /// Passes everything to the kernel, so that it survives any end of this process.
   std::error_code flush();
 
-  /// The same, and waits until the disk holds it: from then on it survives a loss of power. May take seconds.
+  /// Flushes, and waits until the disk holds the data, so that they survive a loss of power. May take seconds.
   std::error_code sync();
 
-  std::uint64_t events() const { return events_; }                     ///< accepted by write()
-  std::uint64_t lost() const { return lost_events_; }                  ///< accepted, then lost to an error of the file
-  std::uint64_t size() const { return whole_size_ + buffer_.size(); }  ///< bytes, those that wait included
-  int descriptor() const { return fd_.get(); }                         ///< of the file, for locks and questions only
+  /// Number of events that write() accepted.
+  std::uint64_t events() const { return events_; }
+  /// Number of accepted events that were lost because of an error of the file.
+  std::uint64_t lost() const { return lost_events_; }
+  /// Size of the log [bytes], including buffered bytes.
+  std::uint64_t size() const { return whole_size_ + buffer_.size(); }
+  /// The descriptor of the file, only for locks and queries.
+  int descriptor() const { return fd_.get(); }
 
   static constexpr std::size_t kBufferSize = 64 * 1024;
 
@@ -75,7 +79,7 @@ class EventLogWriter {
 
   UniqueFd fd_;
   std::vector<std::byte> buffer_;
-  std::uint64_t whole_size_ = 0;  // of the file, up to the last whole event
+  std::uint64_t whole_size_ = 0;  // size of the file up to the last complete event
   std::uint64_t events_ = 0, waiting_events_ = 0, lost_events_ = 0;
 };
 

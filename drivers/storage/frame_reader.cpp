@@ -15,7 +15,7 @@ namespace azimuth {
 
 namespace {
 
-/// Bytes of a file that may be a frame; 0: `problem` says why it may not.
+/// Size of a file that may be a frame; 0: it cannot be one, and `problem` tells why.
 std::size_t frame_size(const UniqueFd& fd, std::string& problem) {
   struct stat status {};
   if (!fd || ::fstat(fd.get(), &status) != 0) {
@@ -30,7 +30,7 @@ std::size_t frame_size(const UniqueFd& fd, std::string& problem) {
   return problem.empty() ? static_cast<std::size_t>(status.st_size) : 0;
 }
 
-/// Fills `out`; returns how far it got before the end of the file or an error, whose reason goes to `problem`.
+/// Fills `out`. Returns the number of bytes read before the end of the file or an error, whose cause goes to `problem`.
 std::size_t read_until_full(const UniqueFd& fd, std::span<std::byte> out, std::string& problem) {
   std::size_t got = 0;
   while (got < out.size()) {
@@ -43,9 +43,9 @@ std::size_t read_until_full(const UniqueFd& fd, std::span<std::byte> out, std::s
   return got;
 }
 
-/// What the file holds, in storage that grows but is not given back. Empty: `problem` says why.
+/// The contents of the file, in storage that only grows. Empty: `problem` tells why.
 std::span<const std::byte> read_whole(const std::string& file, std::vector<std::byte>& storage, std::string& problem) {
-  // Without O_NONBLOCK a named pipe would keep us waiting before we could refuse it.
+  // Without O_NONBLOCK, opening a named pipe would block before it can be refused.
   const UniqueFd fd(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   const std::size_t size = frame_size(fd, problem);
   if (storage.size() < size) storage.resize(size);
@@ -77,7 +77,7 @@ ImageView FrameReader::read_part(const FrameFile& frame, const FramePart& part) 
   return {part.format, log.subspan(part.offset, part.size)};
 }
 
-/// The frames of one log come in a row, so one mapping at a time is enough.
+/// Maps a log. The frames of one log are read consecutively, so one mapping at a time is sufficient.
 bool FrameReader::map(const std::filesystem::path& log) {
   if (log_ && mapped_ == log) return true;
   log_.reset();

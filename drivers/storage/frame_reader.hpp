@@ -1,5 +1,5 @@
 #pragma once
-// The bytes of a run's frames, each when it is asked for.
+// Reads the bytes of a run's frames on demand.
 
 #include <filesystem>
 #include <memory>
@@ -12,22 +12,23 @@
 
 namespace azimuth {
 
-/// Larger files are no frames.
+/// Larger files are not accepted as frames.
 inline constexpr std::size_t kMaxFrameFileBytes = std::size_t{256} << 20U;
 
-/// Reads frames as they were recorded, files of their own or parts of a log.
+/// Reads frames as they were recorded: separate files, or parts of a log.
 ///
-/// Thread contract: thread-bound. Storage is kept from frame to frame; a log stays mapped while its frames are read.
+/// Thread contract: thread-bound. Storage is kept between frames; a log stays mapped while its frames are read.
 class FrameReader {
  public:
-  /// `folder`: what the frames' files are relative to.
+  /// The paths of frame files are relative to `folder`.
   explicit FrameReader(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// Valid until the next call. A file is taken for a JPEG image, which has the sides that its message or its header
-  /// claims, 0 when they claim none: also when it is_png(). No bytes: the frame cannot be read, and problem() says why.
+  /// The view is valid until the next call. The format of a file is reported as JPEG even for a PNG file (see
+  /// is_png()). Its sides are those in its message or header, or 0 if there are none. Without bytes: the frame cannot
+  /// be read, and problem() tells why.
   ImageView read(const FrameFile& frame);
 
-  /// Of the last call; empty when it succeeded.
+  /// The cause of the last failure; empty when the last call succeeded.
   const std::string& problem() const { return problem_; }
 
  private:

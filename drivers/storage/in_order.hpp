@@ -1,5 +1,5 @@
 #pragma once
-// Records of recordings whose clock jumped, in order. Reentrant.
+// Sorts out records with jumping stamps. Thread contract: reentrant.
 
 #include <algorithm>
 #include <cstddef>
@@ -10,15 +10,16 @@
 
 namespace azimuth {
 
-/// Removes as few records as possible so that their `stamp` strictly increases, and says how many: after one wild stamp
-/// only that record goes, not all that follow. Of records with equal stamps the first stays. O(n log n), O(n) when
-/// nothing is to be removed.
+/// Removes as few records as possible so that `stamp` strictly increases, and returns their number. After one wild
+/// stamp only that record is removed, not all that follow. Of records with equal stamps the first is kept. O(n log n),
+/// or O(n) when nothing has to be removed.
 template <class Record>
 std::uint64_t keep_in_order(std::vector<Record>& records) {
   const auto not_after = [](const Record& a, const Record& b) { return b.stamp <= a.stamp; };
   if (std::ranges::adjacent_find(records, not_after) == records.end()) return 0;
 
-  // Longest increasing subsequence: ends[k] is the record with the earliest stamp that ends one of k + 1 records.
+  // Longest increasing subsequence: among all increasing sequences of k + 1 records, ends[k] is the last record of the
+  // one that ends with the earliest stamp.
   constexpr auto kNone = std::numeric_limits<std::size_t>::max();
   std::vector<std::size_t> ends, before(records.size(), kNone);
   const auto stamp_of = [&records](std::size_t i) { return records[i].stamp; };

@@ -13,7 +13,7 @@
 namespace azimuth {
 namespace {
 
-constexpr std::size_t kRoom = 192;  // of a string
+constexpr std::size_t kRoom = 192;  // largest size of a string [bytes]
 constexpr std::size_t kPose = 3 * 8, kSymmetric = 6 * 8;
 constexpr std::size_t kClock = 2 + kRoom + 2 * 8;
 constexpr std::size_t kSince = 8 + (kPose + kSymmetric + 2 * 8) + (8 + 8 + 4 + kPose + 2 * 8) + kPose;
@@ -23,9 +23,9 @@ constexpr std::size_t kSize = kKeptOdometryMagic.size() + 4 + kClock + 4 + kSinc
 
 static_assert(std::tuple_size_v<KeptRecords> * kSize <= 4096, "a kill does not divide what is written to one page");
 
-constexpr Duration kSlept{100'000};         // less than that is how precisely two clocks can be compared
-constexpr double kLeastEigenvalue = -1e-9;  // of a covariance: rounding
-constexpr double kMostCovariance = 1e6;     // m^2
+constexpr Duration kSlept{100'000};         // precision with which two clocks can be compared
+constexpr double kLeastEigenvalue = -1e-9;  // tolerance for rounding in a covariance
+constexpr double kMostCovariance = 1e6;     // largest plausible covariance [m^2]
 
 void put(ByteWriter& writer, const std::string& text) {
   std::array<char, kRoom> room{};
@@ -63,7 +63,7 @@ void put(ByteWriter& writer, const OdometerMemory& memory) {
   for (const std::uint64_t number : memory.numbers) writer.put(number);
 }
 
-/// Reads, and remembers whether all of it can be true.
+/// Reads values, and records whether all of them are plausible.
 class Reader {
  public:
   explicit Reader(Bytes bytes) : bytes_(bytes) {}
@@ -87,7 +87,7 @@ class Reader {
     return Duration{us};
   }
   Stamp stamp() { return Stamp{duration()}; }
-  /// Not negative.
+  /// Reads a value that must not be negative.
   double amount() {
     const double value = bytes_.number();
     expect(is_plausible_sigma(value));

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// drive.lcm.01 after drive.lcm.00; empty where a name ends in no number.
+/// The next part of a log, e.g. drive.lcm.01 after drive.lcm.00; empty when the name does not end in a number.
 fs::path next_part(const fs::path& file) {
   std::string digits = file.extension().string();
   const auto is_digit = [](char each) { return std::isdigit(static_cast<unsigned char>(each)) != 0; };

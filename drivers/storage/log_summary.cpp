@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kMicroseconds = 1e-6;
 
-/// "running (p3dx-sh GJC_3156)": what stands in the brackets.
+/// The text in the brackets of "running (p3dx-sh GJC_3156)".
 std::string name_within(std::string_view status) {
   const std::size_t begin = status.find('('), end = status.rfind(')');
   if (begin == std::string_view::npos || end == std::string_view::npos || end < begin) return {};
@@ -44,7 +44,7 @@ class SummaryReader {
   }
 
  private:
-  /// The first event on a channel of that name decides which prefix all others have.
+  /// True: the event is on the channel `name`. The first such event determines the prefix of all channels.
   bool is_on(std::string_view channel, std::string_view name) {
     if (!channel.ends_with(name)) return false;
     channel.remove_suffix(name.size());
@@ -73,7 +73,7 @@ class SummaryReader {
     const std::optional<SegmentMark> mark = parse_segment_mark(text);
     if (!mark || mark->number < next_segment_) return void(++summary_.malformed);
     summary_.missing_segments += mark->number - next_segment_;
-    summary_.lost_events = mark->lost_events;  // counted since the session began
+    summary_.lost_events = mark->lost_events;  // the mark counts since the session began
     next_segment_ = mark->number + 1;
   }
 
@@ -93,8 +93,8 @@ class SummaryReader {
     box.max_x_m = std::max(box.max_x_m, pose.x_m);
     box.max_y_m = std::max(box.max_y_m, pose.y_m);
   }
-  /// A step may be older than the prediction sent before it, which then has told of that time already. One that is much
-  /// older comes from a clock that was put back.
+  /// A step may be older than the prediction sent before it, which has already covered that time, so it is skipped. A
+  /// much older stamp comes from a clock that was set back.
   void advance(const pose_cov_t& pose, const Pose2& in_odometry) {
     const double elapsed_s = last_ ? kMicroseconds * static_cast<double>(pose.utime - last_->utime_us) : 0.0;
     if (elapsed_s < 0.0 && elapsed_s > -LogSummary::kLongestSilence_s) return;
@@ -104,7 +104,7 @@ class SummaryReader {
     }
     last_ = {pose.utime, in_odometry.x_m, in_odometry.y_m, pose.health};
   }
-  /// A state that only other versions know is silence to this one.
+  /// The time counter of a state. States unknown to this version count as silence.
   double& time_in(std::int8_t health) {
     const bool known = health >= 0 && static_cast<std::size_t>(health) < summary_.health_s.size();
     return known ? summary_.health_s[static_cast<std::size_t>(health)] : summary_.silent_s;

@@ -16,7 +16,7 @@ constexpr std::size_t kLandmarkSize = 3 * 8 + 8 + 3 * 8;  // id, identity, sight
 constexpr std::size_t kViewSize = 3 * 8 + sizeof(Descriptor::values);
 constexpr std::uint32_t kMostCamera = 64;
 
-/// What the header says of the sizes behind it.
+/// The sizes given in the header.
 struct Counts {
   std::uint64_t landmarks, camera, views, entries;
 
@@ -54,7 +54,7 @@ MapLandmark get_landmark(ByteReader& reader) {
   return landmark;
 }
 
-/// The checksum, as it stands at the end.
+/// The checksum at the end of the file.
 std::uint32_t recorded_checksum(Bytes bytes) { return ByteReader(bytes.last(kChecksumSize)).get<std::uint32_t>(); }
 
 }  // namespace
@@ -114,7 +114,7 @@ std::optional<std::string> decode_map(Bytes bytes, MapSnapshot& out) {
   counts.views = reader.get<std::uint32_t>();
   const auto names = reader.get<std::uint32_t>();
   if (names > static_cast<std::uint32_t>(MapNames::looks)) return "names its landmarks in an unknown way";
-  // No landmark has fewer than two coordinates, so this comes before anything is multiplied.
+  // A landmark has at least two coordinates. This limit is checked before any multiplication, which could overflow.
   if (counts.camera > kMostCamera || counts.landmarks > bytes.size() / kLandmarkSize)
     return "contradicts itself about its size";
   out.clear();
@@ -122,7 +122,8 @@ std::optional<std::string> decode_map(Bytes bytes, MapSnapshot& out) {
   out.stamp = stamp_from_us(reader.get<std::int64_t>());
   out.next_id = reader.get<std::int64_t>();
   out.next_identity = reader.get<std::int64_t>();
-  // Which landmarks have a height says how large the covariance is; they fit, or else the sizes contradict.
+  // The number of landmarks with a height determines the size of the covariance. So the landmarks are read first; the
+  // check makes sure that they fit.
   const std::uint64_t fixed =
       kHeaderSize + 8 * (MapSnapshot::kPoseEntries + counts.camera) + kLandmarkSize * counts.landmarks + kChecksumSize;
   if (fixed > bytes.size()) return "contradicts itself about its size";

@@ -1,6 +1,6 @@
 #pragma once
-// Map files, as bytes: a header with the version and every size, the map, and a checksum over all of it. Little-endian
-// on every machine, and doubles bit for bit.
+// Map files as bytes: a header with the version and all sizes, the map, and a checksum over everything. Little-endian
+// on every machine, doubles bit for bit.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,30 +14,30 @@
 
 namespace azimuth {
 
-/// What a map file begins with; the version follows.
+/// The beginning of a map file; the version follows.
 inline constexpr std::string_view kMapMagic = "azimuth map\n";
 inline constexpr std::uint32_t kMapVersion = 1;
-/// Beyond this no map is written or read, so that a field log can hold it as a document.
+/// Larger maps are neither written nor read, so that a field log can hold a map as a document.
 inline constexpr std::size_t kMaxMapBytes = 250'000'000;
 
-/// Bytes that `map` takes as a file.
+/// Size of `map` as a file [bytes].
 std::size_t encoded_size(const MapSnapshot& map);
 
-/// Replaces `out`. The map must be one of implausible() == nothing.
+/// Replaces `out`. Requires that implausible(map) returns none.
 void encode(const MapSnapshot& map, std::vector<std::byte>& out);
 
-/// Whether the bytes are a whole map of this version: magic, size, checksum, version. Nothing: they are; else what is
-/// wrong.
+/// Checks that the bytes are a complete map of this version: magic, size, checksum, version. None: they are; otherwise
+/// what is wrong.
 std::optional<std::string> damage_of(Bytes bytes);
 
-/// Of bytes that damage_of() finds whole: with it other files name this very map.
+/// The checksum by which other files refer to this map. Requires that damage_of() returns none.
 std::uint32_t map_checksum(Bytes bytes);
 
-/// Reads a map into `out`, of which nothing is to be used when something is wrong: that is returned.
+/// Reads a map into `out`. Returns what is wrong, in which case `out` must not be used; none: success.
 std::optional<std::string> decode_map(Bytes bytes, MapSnapshot& out);
 
-/// What no estimator would have written: values that are not finite or absurd, a covariance that is none, identifiers
-/// that contradict each other. Nothing: the map is sound. Takes seconds for thousands of landmarks.
+/// Finds values that no estimator would write: values that are not finite or absurd, an invalid covariance,
+/// contradictory identifiers. None: the map is sound. Takes seconds for thousands of landmarks.
 std::optional<std::string> implausible(const MapSnapshot& map);
 
 }  // namespace azimuth

@@ -25,13 +25,13 @@ bool is_there(const fs::path& file) {
   return fs::exists(fs::symlink_status(file, error));
 }
 
-/// Whether the file holds a whole map that can be read.
+/// True: the file holds a complete, readable map.
 bool is_whole(const fs::path& file) {
   const FileResult<MappedFile> mapped = MappedFile::open(file);
   return mapped && !damage_of(mapped->bytes());
 }
 
-/// On the disk when this succeeds.
+/// Writes the file and forces it to the disk.
 FileResult<void> write_through(Bytes bytes, const fs::path& file) {
   const UniqueFd fd(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
   if (!fd) return failure(system_error(file, "cannot be written", errno));
@@ -45,7 +45,7 @@ FileResult<void> rename_to(const fs::path& from, const fs::path& to) {
   return failure(system_error(to, "cannot be replaced", errno));
 }
 
-/// Names are on the disk only when their folder is.
+/// Forces the names of files in the folder to the disk.
 FileResult<void> sync_folder(const fs::path& file) {
   const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
   const UniqueFd fd(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));

@@ -1,6 +1,6 @@
 #pragma once
-// Maps on disk. The newest map is never put at risk: it is written beside the old one and takes its name when it is
-// whole on the disk; the one before is kept as FILE.previous, for the day the newest cannot be read.
+// Maps on disk. The newest map is never at risk: it is written beside the old one and renamed when it is completely on
+// the disk. The map before it is kept as FILE.previous, in case the newest cannot be read.
 //
 // Thread contract: reentrant; one writer of a file at a time.
 
@@ -13,35 +13,35 @@
 
 namespace azimuth {
 
-/// The file that the map before the newest one is kept in.
+/// The file of the previous map.
 std::filesystem::path previous_map(const std::filesystem::path& file);
 
-/// The file that holds the map and where the robot is on it, for a map that stays as it is itself.
+/// The file of the map with the current pose of the robot, used when the map itself is not saved.
 std::filesystem::path located_map(const std::filesystem::path& file);
 
-/// Whether there is something to read: the file or the one before.
+/// True: the file or its predecessor exists.
 bool map_exists(const std::filesystem::path& file);
 
-/// A map as it was read.
+/// A map that was read.
 struct LoadedMap {
   MapSnapshot map;
-  std::vector<std::byte> bytes;  ///< of the file
-  std::filesystem::path file;    ///< the one that was read
-  FileErrors troubles;           ///< what was wrong with the newer one; empty: nothing
+  std::vector<std::byte> bytes;  ///< contents of the file
+  std::filesystem::path file;    ///< the file that was read
+  FileErrors troubles;           ///< errors in the newer file; empty: none
 };
 
-/// The newest map that can be read, of the file and the one before; all that is wrong with both when neither can.
+/// The newest readable map among the file and its predecessor. When neither is readable, all errors in both.
 FileResult<LoadedMap> read_map(const std::filesystem::path& file);
 
-/// Only this very file.
+/// Reads only this file.
 FileResult<LoadedMap> read_map_only(const std::filesystem::path& file);
 
-/// Replaces the file by `bytes`, which are an encoded map, without a moment in which no good map is on the disk. What
-/// is there and is no whole map becomes FILE.refused instead of the previous one. The folder is made if need be.
+/// Replaces the file by `bytes`, an encoded map, so that there is a good map on the disk at every moment. An existing
+/// file that is not a complete map becomes FILE.refused instead of the previous map. Creates the folder if necessary.
 [[nodiscard]] FileResult<void> write_map(Bytes bytes, const std::filesystem::path& file);
 
-/// Renames a map that is of no use at present, though it may be whole: to FILE.aside.1, or the first number that is
-/// free, the last being used again when all are. A file that is not there is no trouble.
+/// Renames a map that cannot be used at present, although it may be sound, to FILE.aside.1 or the first free number.
+/// When all numbers are taken, the last one is reused. A missing file is not an error.
 [[nodiscard]] FileResult<void> set_map_aside(const std::filesystem::path& file);
 
 }  // namespace azimuth

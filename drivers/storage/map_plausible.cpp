@@ -1,4 +1,4 @@
-// What a map may say; see map_codec.hpp.
+// The plausibility checks of a map; see map_codec.hpp.
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -13,7 +13,7 @@
 namespace azimuth {
 namespace {
 
-// Rounding may cost a covariance this much of its correlations; a filter goes on with it all the same.
+// Tolerance for negative eigenvalues of the correlations due to rounding. A filter works with them all the same.
 constexpr double kRounding = 1e-6;
 constexpr double kMostVariance = 1e12;
 
@@ -29,7 +29,7 @@ bool repeats(std::vector<std::int64_t>& values) {
   return std::ranges::adjacent_find(values) != values.end();
 }
 
-/// As correlations, which are of one scale whatever the units; nothing when it cannot be a covariance at first sight.
+/// The correlations, which have the same scale for all units. None when the matrix is evidently not a covariance.
 std::optional<Eigen::MatrixXd> correlations(const PackedSymmetric& P) {
   const std::size_t size = P.size();
   std::vector<double> scale(size);

@@ -17,12 +17,12 @@ namespace azimuth {
 
 namespace {
 
-/// Compares each stamp with that of the row above.
+/// Compares each stamp with that of the previous row.
 class StampOrder {
  public:
   enum class Row { later, same, earlier };
 
-  /// An earlier stamp is an error of the reader's row.
+  /// Reports an earlier stamp as an error in the reader's current row.
   Row check(Stamp stamp, CsvReader& reader) {
     const std::optional<Stamp> above = std::exchange(above_, stamp);
     if (!above || stamp > *above) return Row::later;
@@ -39,7 +39,7 @@ void require_rows(bool any, FileErrorList& errors) {
   if (!any && errors.empty()) errors.add(0, "has no rows");
 }
 
-/// Rows of t_s,x_m,y_m,heading_rad and more, as `make_row(stamp, pose, index, reader)` makes them.
+/// Reads rows of t_s,x_m,y_m,heading_rad and further columns, made by `make_row(stamp, pose, index, reader)`.
 template <class MakeRow>
 auto read_poses(const TableText& table, std::span<const CsvColumn> columns, FileErrors& all_errors,
                 std::uint64_t& skipped, MakeRow make_row) {
@@ -63,7 +63,7 @@ auto read_poses(const TableText& table, std::span<const CsvColumn> columns, File
   return rows;
 }
 
-// Further columns of odometry.csv.
+// Optional columns of odometry.csv.
 constexpr std::size_t kOrigin = 4, kSigmaGap = 5, kSigmaGapTurn = 6;
 
 bool is_origin(std::int64_t origin) { return origin >= 0 && origin <= std::numeric_limits<std::uint32_t>::max(); }
@@ -72,10 +72,10 @@ bool is_origin(std::int64_t origin) { return origin >= 0 && origin <= std::numer
 constexpr std::size_t kStamp = 0, kAzimuth = 1, kElevation = 2, kLandmark = 3, kKind = 4, kSigma = 5, kRadius = 6,
                       kSigmaElevation = 7;
 
-/// Of one set: more are in no message that a log could hold.
+/// Largest number in one set, because a message in a log cannot hold more.
 constexpr std::size_t kMostBearings = features_t::MAX_FEATURES;
 
-/// Nothing when a field is wrong.
+/// None when a field is wrong.
 std::optional<Bearing> read_bearing(CsvReader& reader) {
   Bearing bearing;
   const auto azimuth_rad = reader.number(kAzimuth, is_plausible_azimuth);
@@ -114,14 +114,14 @@ std::optional<Bearing> read_bearing(CsvReader& reader) {
   return good ? std::optional(bearing) : std::nullopt;
 }
 
-/// Why the row's set is empty; nothing when it has a bearing.
+/// Why the row's set is empty; none when it has a bearing.
 std::optional<ImageTrouble> empty_set_word(const CsvReader& reader) {
   const auto word = std::ranges::find(kEmptySetWords, reader.field(kAzimuth));
   if (word == kEmptySetWords.end()) return std::nullopt;
   return static_cast<ImageTrouble>(word - kEmptySetWords.begin());
 }
 
-/// Adds the row to the last set. `is_empty_set`: its first row said so.
+/// Adds the row to the last set. `is_empty_set` tells that the set's first row marks it as empty.
 void add_bearing(CsvReader& reader, bool first_of_set, bool& is_empty_set, BearingSet& set) {
   const std::optional<ImageTrouble> nothing_found = empty_set_word(reader);
   const auto is_empty = [&reader](std::size_t column) { return reader.field(column).empty(); };
@@ -141,7 +141,7 @@ void add_bearing(CsvReader& reader, bool first_of_set, bool& is_empty_set, Beari
   }
 }
 
-/// A path that cannot lead out of its folder.
+/// True: the path cannot lead out of its folder.
 bool is_below_folder(std::string_view file) {
   const std::filesystem::path path(file);
   return !file.empty() && path.is_relative() && std::ranges::find(path, "..") == path.end();

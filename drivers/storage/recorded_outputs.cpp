@@ -40,7 +40,7 @@ class OutputReader {
     if (!out_.poses.empty() && pose.utime <= out_.poses.back().pose.utime) return void(++out_.poses_not_in_order);
     out_.poses.push_back({pose, pose.health == health_ ? reason_ : ""});
   }
-  /// It tells of the poses since the last one, too.
+  /// Takes a status, which applies to the poses since the previous status as well.
   void take_status(const status_t& status) {
     health_ = status.health;
     reason_ = status.reason;
@@ -53,9 +53,9 @@ class OutputReader {
   RecordedOutputs& out_;
   MapPieces map_;
   PathPieces path_;
-  std::int8_t health_ = -1;  // of the last status
+  std::int8_t health_ = -1;  // health in the last status
   std::string reason_;
-  std::size_t told_ = 0;  // poses that a status has told of
+  std::size_t told_ = 0;  // number of poses that a status has covered
 };
 
 }  // namespace

@@ -12,23 +12,24 @@
 
 namespace azimuth {
 
-/// A pose as it was published, with the reason for its health as far as the status told it.
+/// A published pose, with the reason for its health according to the status.
 struct RecordedOutput {
   pose_cov_t pose;
   std::string reason;
 };
 
-/// What a daemon published of poses, map and path.
+/// The poses, map and path that a daemon published.
 struct RecordedOutputs {
-  std::vector<RecordedOutput> poses;     ///< of steps, not those predicted between them; stamps strictly increase
-  std::vector<path_pose_t> path;         ///< the last one; empty: none was published
-  std::vector<landmark_t> landmarks;     ///< of the last map
-  std::uint64_t poses_not_in_order = 0;  ///< left out
-  std::uint64_t malformed = 0;           ///< messages that were passed over
+  /// Poses of steps, without predicted ones; stamps strictly increase.
+  std::vector<RecordedOutput> poses;
+  std::vector<path_pose_t> path;         ///< the last path; empty: none was published
+  std::vector<landmark_t> landmarks;     ///< landmarks of the last map
+  std::uint64_t poses_not_in_order = 0;  ///< poses that were left out
+  std::uint64_t malformed = 0;           ///< messages that were skipped
 };
 
-/// Reads them from a log or session; there may be none. Maps and paths of which a piece is missing are passed over.
-/// Reentrant.
+/// Reads the outputs from a log or session; there may be none. Maps and paths with a missing piece are skipped. Thread
+/// contract: reentrant.
 FileResult<RecordedOutputs> read_recorded_outputs(const std::filesystem::path& log_or_session,
                                                   const LogOptions& options = {});
 

@@ -11,17 +11,17 @@
 
 namespace azimuth {
 
-/// The pose of one step of the estimator, as the daemon published it.
+/// The pose of one step of the estimator as published by the daemon.
 struct RecordedPose {
   Stamp stamp{};
   std::int64_t step = 0;  ///< counts steps from 1
   Pose2 T_map_body;
-  std::array<double, 9> covariance{};  ///< of (x [m], y [m], heading [rad]) in the map frame, row by row
+  std::array<double, 9> covariance{};  ///< covariance of (x [m], y [m], heading [rad]) in the map frame, row by row
   Pose2 T_odom_body;
 };
 
-/// The poses of steps (not those predicted between them) on AZIMUTH_POSE in a log or session, in the order in which
-/// they were recorded; malformed messages are left out. May be none. Reentrant.
+/// Reads the poses of steps (not the predicted ones) on AZIMUTH_POSE from a log or session, in the order of recording;
+/// malformed messages are left out. There may be none. Thread contract: reentrant.
 FileResult<std::vector<RecordedPose>> read_recorded_poses(const std::filesystem::path& log_or_session,
                                                           const LogOptions& options = {});
 

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Reads the files of one folder; what is wrong with any of them gathers in `errors`.
+/// Reads the files of one folder, and collects all errors in `errors`.
 struct FolderReader {
   fs::path folder;
   FileErrors errors;
@@ -31,7 +31,7 @@ struct FolderReader {
     return std::nullopt;
   }
 
-  /// Its text; empty where it may come later, or an error says why it cannot be had.
+  /// The text of rig.toml; empty when it may come later, or when an error has been added.
   std::string rig(const fs::path& file, const LogOptions& options) {
     if (!options.rig_file.empty() || has(kRigFile) || !has(kOdometryFile)) return text(file).value_or("");
     if (!options.rig_may_come_later)
@@ -41,7 +41,7 @@ struct FolderReader {
     return {};
   }
 
-  /// What `read(table, errors, more...)` makes of the table.
+  /// The result of `read(table, errors, more...)` for the named table.
   template <class Read, class... More>
   auto table(const char* name, Read read, More&... more) {
     const std::optional<std::string> content = text(folder / name);
@@ -50,7 +50,7 @@ struct FolderReader {
   }
 };
 
-/// Refuses what tables cannot hold.
+/// Refuses data that tables cannot hold.
 FileResult<void> refuse(const Run& run, const fs::path& folder) {
   const auto unfit = std::ranges::find_if_not(run.bearings, fits_table);
   if (unfit != run.bearings.end()) {
@@ -76,7 +76,7 @@ FileResult<void> refuse(const Run& run, const fs::path& folder) {
   return {};
 }
 
-/// Writes the table, or removes one left there by an earlier run.
+/// Writes the table, or removes one that an earlier run left there.
 FileResult<void> write_or_remove(const fs::path& file, bool wanted, const std::string& text) {
   if (wanted) return write_text_file(file, text);
   std::error_code error;
@@ -85,14 +85,14 @@ FileResult<void> write_or_remove(const fs::path& file, bool wanted, const std::s
   return {};
 }
 
-/// Image 7 of a log.
+/// The file name of image `number` of a log.
 std::string frame_name(std::size_t number) {
   std::string digits = std::to_string(number);
   return "frames/" + std::string(digits.size() < 6 ? 6 - digits.size() : 0, '0') + digits + ".jpg";
 }
 
-/// The frames with the names of their files; those that lie in a log are given files. One that cannot be read becomes
-/// an empty file, which cannot be read either.
+/// The frames with the names of their files. Frames inside a log are written to files. An unreadable frame becomes an
+/// empty file, which is unreadable as well.
 FileResult<std::vector<FrameFile>> frames_as_files(const Run& run, const fs::path& folder) {
   std::vector<FrameFile> frames = run.frames;
   FrameReader reader(run.folder);
@@ -113,7 +113,7 @@ FileResult<std::vector<FrameFile>> frames_as_files(const Run& run, const fs::pat
 
 std::string first_rig(const fs::path& folder, bool has_images) {
   const std::string rig = (folder / kRigFile).string();
-  const std::string own = "azimuth settings --rig > " + rig +
+  const std::string own = "azimuthd --print-rig-settings > " + rig +
                           ", every key at its default, to be changed there (camera.identities = true where bearings "
                           "carry names)";
   const std::string found = "azimuth calibrate " + folder.string() + " --out " + rig;

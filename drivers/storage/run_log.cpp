@@ -27,13 +27,13 @@ constexpr std::array kOutputs{channel::kPose,      channel::kBotPose,  channel::
                               channel::kPath,      channel::kStatus,   channel::kPicture,
                               channel::kSightings, channel::kExpected, channel::kKept};
 
-/// drive.lcm: drive.rig.toml
+/// The rig file beside a log, e.g. drive.rig.toml for drive.lcm.
 fs::path rig_beside(const fs::path& log) { return fs::path(log).replace_extension(".rig.toml"); }
 
 }  // namespace
 
 RunCollector::RunCollector(fs::path file, const LogOptions& options) : file_(std::move(file)), options_(options) {
-  std::error_code ignored;  // of a name that leads nowhere, which is found out elsewhere
+  std::error_code ignored;  // a wrong name is reported later
   run_.name = fs::weakly_canonical(file_, ignored).stem().string();
   run_.folder = file_.parent_path();
 }
@@ -52,7 +52,8 @@ void RunCollector::add(const LogEvent& event, const EventPlace& place) {
   }
 }
 
-/// What it could be is remembered of each channel's first message, for who has not been told which channel is which.
+/// Counts a foreign event. Remembers the likely contents of each channel by its first message, for hints to a user who
+/// has not named the channels.
 void RunCollector::add_foreign(std::string_view channel, Bytes data) {
   ++run_.skipped.foreign_events;
   constexpr std::size_t kMostRemembered = 20;
@@ -62,7 +63,7 @@ void RunCollector::add_foreign(std::string_view channel, Bytes data) {
   foreign_.emplace(channel, is_odometry ? Holds::odometry : claims_image(data) ? Holds::images : Holds::other);
 }
 
-/// Programs of others know no prefix of ours.
+/// True: the channel has this name, with or without the prefix, because other programs do not use the prefix.
 bool RunCollector::is_on(std::string_view channel, const std::string& name) const {
   return channel == name || channel == options_.channel_prefix + name;
 }
@@ -140,7 +141,7 @@ void RunCollector::add_mark(std::string_view text) {
   }
   if (!segments.current && !in_frames_part_) run_.from_the_start = mark->number == 0;
   segments.missing += mark->number - expected;
-  segments.lost_events = mark->lost_events;  // counted since the session began
+  segments.lost_events = mark->lost_events;  // the mark counts since the session began
   segments.current = mark->number;
 }
 
@@ -157,7 +158,8 @@ void RunCollector::add_true_map(Bytes data) {
   }
 }
 
-/// Frames, and a table of landmarks, which says more than the map; a table with errors is a malformed message.
+/// Uses the tables among the documents: frames, and landmarks, whose table holds more data than the map. A table with
+/// errors counts as a malformed message.
 void RunCollector::use_tables() {
   const auto use = [this](const char* name, auto read, auto& rows) {
     const auto document = documents_.find(name);
@@ -188,8 +190,9 @@ void RunCollector::use_texts() {
     run_.recorded_by = document->second.substr(0, document->second.find('\n'));
 }
 
-/// Stamps of a daemon run evenly, whatever the clock does, and what it estimated from them is to come out again. Images
-/// of a part of their own did not come in one order with the rest.
+/// Repairs clock jumps. A daemon's recording is left alone, because its stamps advance evenly, and a replay must give
+/// the same estimates. So are images from a separate part, because their order relative to the other samples is
+/// unknown.
 void RunCollector::mend_clock() {
   if (in_frames_part_ || documents_.contains(kVersionDocument)) return;
   run_.skipped.clock_jumps =
@@ -229,7 +232,7 @@ void RunCollector::find_rig(FileErrors& errors) {
     errors.push_back({file_.string(), 0,
                       "holds no rig.toml on " + options_.channel_prefix + std::string(channel::kDocument) +
                           ", and beside it " + text.error().front().text() +
-                          "; give it with --rig FILE, or find one: azimuth convert makes a run folder without"});
+                          "; give it with --rig FILE, or find one: azimuth import makes a run folder without"});
   }
 }
 
@@ -243,7 +246,7 @@ void RunCollector::use_rig(const fs::path& file, FileErrors& errors) {
   run_.rig_file = file.string();
 }
 
-/// Which channels could be meant; empty: none could.
+/// A hint at channels with suitable contents; empty: there are none.
 std::string RunCollector::meant(Holds what, std::string_view option) const {
   std::string channels;
   for (const auto& [channel, holds] : foreign_)
@@ -288,7 +291,7 @@ FileResult<Run> read_run_log(const fs::path& file, const LogOptions& options) {
   if (!read) return failure(read.error());
   std::uint64_t damaged_bytes = read->damaged_bytes;
   const fs::path frames = file / kFramesPart;
-  if (!session_segments(frames).empty()) {  // one without a whole event holds no images
+  if (!session_segments(frames).empty()) {  // a segment without a complete event holds no images
     collector.begin_frames();
     const auto images =
         each_event(frames, [&](const LogEvent& event, const EventPlace& place) { collector.add(event, place); });

@@ -18,20 +18,20 @@
 
 namespace azimuth {
 
-/// Gathers a run from the events of a log, in their order. Of documents with one name the first counts, likewise of
-/// true landmarks with one identity. Thread contract: thread-bound.
+/// Collects a run from the events of a log in their order. Of documents with the same name, and of true landmarks with
+/// the same identity, the first one is used. Thread contract: thread-bound.
 class RunCollector {
  public:
-  /// `file` is what errors name; a rig may stand beside it.
+  /// `file` is the name in errors; a rig may lie beside it.
   RunCollector(std::filesystem::path file, const LogOptions& options);
 
-  /// What comes now is from the session's folder of images.
+  /// Tells that the following events come from the session's folder of images.
   void begin_frames() { in_frames_part_ = true; }
 
-  /// `place` is where its data can be found again: images are not kept.
+  /// `place` is the position of the event's data, because images are not kept in memory.
   void add(const LogEvent& event, const EventPlace& place = {});
 
-  /// The run, if it has a rig, odometry, and, unless that alone is enough, bearings or frames.
+  /// The run, provided that it has a rig, odometry and bearings or frames. LogOptions can make some of these optional.
   FileResult<Run> finish(std::uint64_t damaged_bytes) &&;
 
  private:
@@ -58,13 +58,13 @@ class RunCollector {
   enum class Holds : std::uint8_t { odometry, images, other };
   std::string meant(Holds what, std::string_view option) const;
 
-  /// How far through a session's segments the reading has come, and what it missed.
+  /// The progress through a session's segments, and the missing data.
   struct Segments {
     std::optional<std::uint64_t> current;
     std::uint64_t missing = 0, lost_events = 0;
   };
 
-  /// How each sample of the run came.
+  /// The arrival of each sample of the run.
   struct Arrivals {
     std::vector<Arrival> odometry, bearings, frames, truth;
   };
@@ -73,15 +73,15 @@ class RunCollector {
   LogOptions options_;
   Run run_;
   Arrivals arrivals_;
-  Arrival arrival_;                                    // of the event that is being added
-  std::map<std::string, Holds, std::less<>> foreign_;  // channels of others
+  Arrival arrival_;                                    // arrival of the event that is being added
+  std::map<std::string, Holds, std::less<>> foreign_;  // channels of other programs
   std::map<std::string, std::string, std::less<>> documents_;
   std::unordered_set<Identity> true_identities_;
   Segments samples_, images_;
   bool in_frames_part_ = false, has_bot_poses_ = false;
 };
 
-/// `file` may be a session folder.
+/// `file` may also be a session folder.
 FileResult<Run> read_run_log(const std::filesystem::path& file, const LogOptions& options);
 
 }  // namespace azimuth

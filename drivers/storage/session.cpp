@@ -12,7 +12,7 @@ namespace {
 constexpr std::string_view kExtension = ".lcm";
 constexpr std::size_t kLeastDigits = 3;
 
-/// Takes a decimal number off the front of `text`.
+/// Takes a decimal number from the beginning of `text`.
 std::optional<std::uint64_t> take_number(std::string_view& text) {
   std::uint64_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);

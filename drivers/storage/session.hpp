@@ -1,8 +1,7 @@
 #pragma once
-// A session: the folder one start of the daemon records into, cut into segments 000.lcm, 001.lcm and so on. Each
-// segment is an LCM log that begins with the documents of the recording, so that it can be replayed by itself. Images
-// that were recorded as well lie in segments of their own in the folder frames, which may be deleted without harm to
-// the rest.
+// A session: the folder into which the daemon records from one start. It consists of segments 000.lcm, 001.lcm and so
+// on. Each segment is an LCM log that begins with the documents of the recording, so that it can be replayed alone.
+// Recorded images lie in segments of their own in the folder frames, which may be deleted without harm to the rest.
 //
 // Thread contract: reentrant.
 
@@ -18,7 +17,7 @@ namespace azimuth {
 /// "000.lcm"; more digits from 1000 on.
 std::string segment_name(std::uint64_t number);
 
-/// The number in a segment's file name; nothing for any other name.
+/// The number in a segment's file name; none for any other name.
 std::optional<std::uint64_t> segment_number(std::string_view name);
 
 /// One segment on disk.
@@ -27,38 +26,39 @@ struct SegmentFile {
   std::filesystem::path file;
 };
 
-/// The segments in a folder, in their order. None when it has none, or is not a folder that can be read.
+/// The segments in a folder in order; empty when there are none, or the folder cannot be read.
 std::vector<SegmentFile> session_segments(const std::filesystem::path& folder);
 
-/// The document `segment`, first in each: which part of its session a segment is.
+/// The document `segment`, the first in each segment: the position of the segment in its session.
 struct SegmentMark {
-  std::uint64_t number = 0;  ///< from 0; a higher one says that estimates do not begin with this segment
-  std::uint64_t lost_events =
-      0;  ///< events of the session before this segment that no segment holds: the disk was full
+  /// From 0. A number above 0 means that the estimator's start is not in this segment.
+  std::uint64_t number = 0;
+  /// Events of the session before this segment that are in no segment, because the disk was full.
+  std::uint64_t lost_events = 0;
   friend bool operator==(const SegmentMark&, const SegmentMark&) = default;
 };
 
-/// The folder of a session in which its images lie.
+/// The folder of a session that holds its images.
 inline constexpr const char* kFramesPart = "frames";
 
 /// A text, or bytes, that belong to a recording.
 struct Document {
   std::string name;  ///< file name without a folder, such as "rig.toml"
   std::string text;
-  bool of_the_start = false;  ///< belongs to the first segment of a session only
+  bool of_the_start = false;  ///< belongs only to the first segment of a session
 };
 
-// The names of documents in a daemon's recording, beside rig.toml.
+// The names of the documents in a daemon's recording, in addition to rig.toml.
 inline constexpr const char* kSegmentDocument = "segment";
-inline constexpr const char* kConfigurationDocument = "azimuth.toml";  ///< what the estimator was told
-inline constexpr const char* kMapDocument = "map.azmap";               ///< what the estimator started from
-inline constexpr const char* kOdometryDocument = "odometry";           ///< and how the robot had gone on from there
-inline constexpr const char* kVersionDocument = "version";             ///< of the daemon
+inline constexpr const char* kConfigurationDocument = "azimuth.toml";  ///< the estimator's configuration
+inline constexpr const char* kMapDocument = "map.azmap";               ///< the map that the estimator started from
+inline constexpr const char* kOdometryDocument = "odometry";           ///< the motion of the robot since that map
+inline constexpr const char* kVersionDocument = "version";             ///< version of the daemon
 
 /// Two lines of TOML.
 std::string to_text(const SegmentMark& mark);
 
-/// Reads exactly what to_text() writes.
+/// Parses exactly the output of to_text().
 std::optional<SegmentMark> parse_segment_mark(std::string_view text);
 
 }  // namespace azimuth

@@ -1,5 +1,5 @@
 #pragma once
-// Trajectories in the text format of the TUM benchmark, which evaluation tools read: `t x y z qx qy qz qw`.
+// Trajectories in the text format of the TUM benchmark, for evaluation tools: `t x y z qx qy qz qw`.
 
 #include <filesystem>
 #include <span>
@@ -12,10 +12,11 @@
 
 namespace azimuth {
 
-/// One line a pose: seconds with six decimals, metres and quaternion with the digits that give the same doubles back.
+/// The text has one line per pose: seconds with six decimals; metres and quaternion with enough digits to restore the
+/// same doubles.
 std::string tum_text(std::span<const std::pair<Stamp, Pose2>> trajectory);
 
-/// Writes that text, replacing the file.
+/// Writes the output of tum_text() to the file, which is replaced.
 [[nodiscard]] FileResult<void> write_tum(std::span<const std::pair<Stamp, Pose2>> trajectory,
                                          const std::filesystem::path& file);
 

@@ -16,7 +16,7 @@ namespace azimuth {
 
 namespace {
 
-/// Writes messages as events of their own instants; the first error ends it.
+/// Writes messages as events at their own times. Stops at the first error.
 class MessageLog {
  public:
   MessageLog(EventLogWriter& log, std::string prefix) : log_(log), prefix_(std::move(prefix)) {}
@@ -52,12 +52,12 @@ void write_documents(MessageLog& log, const Run& run) {
   log.write_document(kRigFile, run.rig_toml, stamp);
   if (run.landmarks.empty()) return;
   for (const map_chunk_t& chunk : to_messages(run.landmarks, stamp)) log.write(channel::kTruthMap, chunk);
-  if (std::ranges::any_of(run.landmarks, has_kind)) {  // which a map message cannot say
+  if (std::ranges::any_of(run.landmarks, has_kind)) {  // a map message cannot hold kinds
     log.write_document(kLandmarksFile, landmarks_table(run.landmarks), stamp);
   }
 }
 
-/// Frames, one at a time.
+/// Writes frames one at a time.
 class ImageLog {
  public:
   ImageLog(MessageLog& log, const Run& run, std::string_view channel)
@@ -70,7 +70,7 @@ class ImageLog {
     log_.write(channel_, message_);
   }
 
-  /// The first image that messages have no format for; empty: there was none.
+  /// The first image in a format that messages do not have; empty: there was none.
   const std::string& png() const { return png_; }
 
  private:
@@ -80,7 +80,7 @@ class ImageLog {
   image_t message_{};
 };
 
-/// How far the writing of one sort of records has come.
+/// How many records of one kind have been written.
 template <class Record>
 struct Progress {
   const std::vector<Record>& records;

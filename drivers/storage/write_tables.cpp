@@ -25,7 +25,7 @@ struct OdometryColumns {
   bool gaps = false;
 };
 
-/// Where the table does not say where an odometer began anew, whoever reads it looks for that himself.
+/// Decides which columns are needed. A reader of a table without origins detects restarts of the odometer by itself.
 OdometryColumns columns_needed(std::span<const OdometryReading> readings) {
   OdometryColumns columns;
   OdometrySteps steps;
@@ -37,7 +37,7 @@ OdometryColumns columns_needed(std::span<const OdometryReading> readings) {
   return columns;
 }
 
-/// NaN, for what is not known, is an empty field.
+/// Appends a value; NaN (unknown) becomes an empty field.
 void append_optional(std::string& out, double value) {
   out += ',';
   if (!std::isnan(value)) append_double(out, value);

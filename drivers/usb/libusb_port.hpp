@@ -9,7 +9,7 @@
 
 namespace azimuth {
 
-/// Nothing for a root hub.
+/// The port of a device; none for a root hub.
 inline std::optional<UsbPort> usb_port_of(libusb_device* device) {
   std::array<std::uint8_t, UsbPort::kMaxDepth> ports{};
   const int depth = libusb_get_port_numbers(device, ports.data(), static_cast<int>(ports.size()));

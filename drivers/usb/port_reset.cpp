@@ -26,19 +26,19 @@ PortResetResult failed(const UsbPort& port, const char* what, int error) {
   return {false, std::move(text)};
 }
 
-/// Opening and resetting.
+/// Opens and resets the device.
 PortResetResult reset_device(libusb_device* device, const UsbPort& port) {
   libusb_device_handle* opened = nullptr;
   if (const int error = libusb_open(device, &opened); error != LIBUSB_SUCCESS) return failed(port, "open", error);
   const std::unique_ptr<libusb_device_handle, Close> handle(opened);
   const int error = libusb_reset_device(handle.get());
   if (error == LIBUSB_SUCCESS) return {true, "USB port " + port.text() + ": reset"};
-  // That is what it says when the device came back with another address.
+  // libusb returns this error when the device came back with another address.
   if (error == LIBUSB_ERROR_NOT_FOUND) return {true, "USB port " + port.text() + ": reset, came back as a new device"};
   return failed(port, "reset", error);
 }
 
-/// A context of its own each time: what is plugged in is asked anew, and nothing is held in between.
+/// Uses a new libusb context each time, so that the list of devices is current and nothing stays open in between.
 PortResetResult reset_port(const UsbPort& port) {
   libusb_context* made = nullptr;
   if (const int error = libusb_init(&made); error != LIBUSB_SUCCESS) return failed(port, "start libusb", error);

@@ -8,24 +8,25 @@
 
 namespace azimuth {
 
-/// What became of a reset.
+/// The result of a reset.
 struct PortResetResult {
   bool done = false;
-  std::string text;  ///< a sentence for the log, with port and reason
+  std::string text;  ///< a sentence for the log, with port and cause
 };
 
-/// The last resort for a USB device that hangs: resets what is plugged in at a port, as if it were unplugged and
-/// plugged in again. Its kernel driver usually lets go of it and takes it anew, so that its nodes go and come back,
-/// perhaps under other numbers.
+/// The last resort for a USB device that hangs: resets the device at a port, as if it were unplugged and plugged in
+/// again. Usually its kernel driver releases the device and takes it again, so its nodes disappear and come back,
+/// possibly under other numbers.
 ///
-/// Needs write permission to the device's node below /dev/bus/usb, which udev rules give.
+/// Requires write permission for the device's node below /dev/bus/usb, which udev rules grant.
 ///
-/// Thread contract: thread-bound. reset() blocks while the device takes its time, which can be seconds; nothing in the
-/// kernel lets that be cut short.
+/// Thread contract: thread-bound. reset() blocks for as long as the device takes, possibly seconds; the kernel offers
+/// no way to interrupt it.
 class PortReset {
  public:
   using Clock = std::chrono::steady_clock;
-  /// Between two attempts at one port: a device that needs more is not to be helped, and must not keep its hub busy.
+  /// Shortest time between two attempts at one port. More frequent resets would not help the device, and would keep its
+  /// hub busy.
   static constexpr Clock::duration kLeastInterval = std::chrono::minutes(1);
 
   PortResetResult reset(const UsbPort& port, Clock::time_point now);
@@ -37,7 +38,7 @@ class PortReset {
   };
   bool is_too_soon(const UsbPort& port, Clock::time_point now);
 
-  std::array<std::optional<Attempt>, 16> attempts_;  // the oldest gives way: robots have fewer devices
+  std::array<std::optional<Attempt>, 16> attempts_;  // a new attempt replaces the oldest; robots have fewer devices
 };
 
 }  // namespace azimuth

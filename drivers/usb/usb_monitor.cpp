@@ -70,7 +70,7 @@ int UsbMonitor::on_event(libusb_context* /*context*/, libusb_device* device, int
                                                    .port = port->text(),
                                                    .vendor = about.idVendor,
                                                    .product = about.idProduct});
-  return 0;  // anything else would end the registration
+  return 0;  // any other value would end the registration
 }
 
 void UsbMonitor::turn() {
@@ -89,7 +89,7 @@ bool UsbMonitor::works(const char* what, int returned) {
 void UsbMonitor::close() {
   if (context_) {
     libusb_set_pollfd_notifiers(context_, nullptr, nullptr, nullptr);
-    libusb_exit(context_);  // ends the registration, too
+    libusb_exit(context_);  // ends the registration as well
   }
   context_ = nullptr;
   descriptors_ = UniqueFd{};

@@ -11,7 +11,7 @@ struct libusb_device;
 
 namespace azimuth {
 
-/// A device was plugged in or out.
+/// A USB device was plugged in or unplugged.
 struct UsbEvent {
   enum class Kind { arrived, left };
   Kind kind = Kind::arrived;
@@ -19,30 +19,30 @@ struct UsbEvent {
   std::uint16_t vendor = 0, product = 0;
 };
 
-/// Tells when USB devices are plugged in and out, for a thread that polls: descriptor() for POLLIN; turn(); take()
-/// until it says no.
+/// Reports when USB devices are plugged in and unplugged, for a thread that polls: descriptor() for POLLIN; then
+/// turn(); then take() until it returns false.
 ///
-/// A convenience: who waits for a device is woken at once instead of after its back-off. Where the system does not tell
-/// (no udev, no netlink) trouble() says why, and nothing else changes.
+/// The monitor only shortens waiting: a driver that waits for a device is woken at once instead of after its back-off.
+/// Where the system does not report devices (no udev, no netlink), trouble() tells why, and nothing else changes.
 ///
-/// Thread contract: thread-bound; nothing blocks after construction. libusb has a thread of its own, which takes on the
-/// signal mask of the thread that makes the first monitor. Allocates when something happens, never while nothing does.
+/// Thread contract: thread-bound; nothing blocks after construction. libusb has a thread of its own, which inherits the
+/// signal mask of the thread that constructs the first monitor. Allocates only when there are events.
 class UsbMonitor {
  public:
-  static constexpr std::size_t kMaxUntaken = 32;  ///< then the oldest events give way
+  static constexpr std::size_t kMaxUntaken = 32;  ///< beyond this, the oldest events are dropped
 
   UsbMonitor();
   ~UsbMonitor();
   UsbMonitor(const UsbMonitor&) = delete;
   UsbMonitor& operator=(const UsbMonitor&) = delete;
 
-  /// -1: there is nothing to wait for. Only turn() changes it, and only to that.
+  /// -1: there is nothing to wait for. Only turn() can change it, and only to -1.
   int descriptor() const { return descriptors_.get(); }
   void turn();
-  /// The oldest event not taken yet.
+  /// Takes the oldest event.
   bool take(UsbEvent& event) { return events_.pop(event); }
 
-  /// Why nothing is told, or will be any more; empty: it works.
+  /// Why no events are reported; empty: the monitor works.
   const std::string& trouble() const { return trouble_; }
 
  private:
@@ -54,7 +54,7 @@ class UsbMonitor {
   bool works(const char* what, int returned);
   void close();
 
-  UniqueFd descriptors_;  // an epoll of libusb's
+  UniqueFd descriptors_;  // an epoll of libusb's descriptors
   libusb_context* context_ = nullptr;
   Ring<UsbEvent, kMaxUntaken> events_;
   std::string trouble_;

@@ -9,7 +9,7 @@
 namespace azimuth {
 namespace {
 
-/// Takes a number from 1 to 255 without leading zeros off the front.
+/// Takes a number from 1 to 255 without leading zeros from the beginning of `text`.
 std::optional<std::uint8_t> take_number(std::string_view& text) {
   std::uint8_t number = 0;
   const auto [end, wrong] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -56,7 +56,7 @@ std::string UsbPort::text() const {
 }
 
 std::optional<UsbPort> usb_port_in_path(const std::filesystem::path& sysfs_path) {
-  // A name of that form counts only below the root hub of its bus: other buses have names with hyphens, too.
+  // A name counts as a port only below the root hub of its bus, because names on other buses contain hyphens as well.
   std::string root_hub;
   std::optional<UsbPort> innermost;
   for (const std::filesystem::path& part : sysfs_path) {

@@ -14,7 +14,7 @@ BufferCall::BufferCall(std::uint32_t buffer_type, std::uint32_t index) {
 }
 
 Stamp to_stamp(const timeval& time) {
-  constexpr std::int64_t kLast_s = 1'000'000'000'000;  // beyond which microseconds overflow
+  constexpr std::int64_t kLast_s = 1'000'000'000'000;  // beyond this, microseconds overflow
   const std::int64_t seconds = std::clamp<std::int64_t>(time.tv_sec, 0, kLast_s);
   return stamp_from_us(seconds * 1'000'000 + std::clamp<std::int64_t>(time.tv_usec, 0, 999'999));
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Internal to drivers/v4l2: the driver's image buffers.
+// Internal to drivers/v4l2: the image buffers of the kernel's driver.
 
 #include <array>
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace azimuth::v4l2 {
 
-/// The mapped buffers of one stream; a lease keeps all of them mapped.
+/// The mapped buffers of one stream. While any image of the stream is leased (Frame), all buffers stay mapped.
 class Buffers final : public FramePool {
  public:
   Buffers(Calls& calls, UniqueFd bell) : FramePool(std::move(bell)), calls_(calls) { mapped_.reserve(kMaxSlots); }
@@ -28,7 +28,7 @@ class Buffers final : public FramePool {
   std::vector<std::span<std::byte>> mapped_;
 };
 
-/// v4l2_buffer for either kind of capture: with planes, the single one's numbers stand elsewhere.
+/// A v4l2_buffer for either kind of capture. With planes, the numbers are in its single plane.
 class BufferCall {
  public:
   explicit BufferCall(std::uint32_t buffer_type, std::uint32_t index = 0);
@@ -39,7 +39,7 @@ class BufferCall {
   const v4l2_buffer& buffer() const { return buffer_; }
   std::uint32_t length() const { return has_planes() ? plane_.length : buffer_.length; }
   std::uint32_t offset() const { return has_planes() ? plane_.m.mem_offset : buffer_.m.offset; }
-  /// Where in its buffer an image begins and ends.
+  /// Beginning and end of an image in its buffer.
   std::uint32_t begin() const { return has_planes() ? plane_.data_offset : 0; }
   std::uint32_t end() const { return has_planes() ? plane_.bytesused : buffer_.bytesused; }
   bool stamp_is_monotonic() const {
@@ -53,7 +53,7 @@ class BufferCall {
   v4l2_plane plane_{};
 };
 
-/// Of the kernel's time of a frame, kept within what a stamp can hold.
+/// The kernel's time of a frame, limited to the range of a stamp.
 Stamp to_stamp(const timeval& time);
 
 }  // namespace azimuth::v4l2

@@ -22,7 +22,7 @@ class KernelCalls final : public Calls {
       if (errno != EINTR) return errno;
     return 0;
   }
-  /// Writable for the drivers that refuse less; nobody writes.
+  /// The mapping is writable because some drivers refuse a read-only one. Nothing is written to it.
   std::span<std::byte> map(int fd, std::size_t bytes, std::uint32_t offset, int& error) override {
     void* const start = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, fd, static_cast<off_t>(offset));
     error = start == MAP_FAILED ? errno : 0;

@@ -8,24 +8,24 @@
 
 namespace azimuth::v4l2 {
 
-/// The system calls a camera is reached by, and where its description stands, so that another can stand in for the
-/// kernel. Errors are errno's numbers.
+/// The system calls and file system paths for a camera, as an interface, so that tests can replace the kernel. Errors
+/// are errno values.
 ///
-/// Thread contract: unmap() may be called by any thread, the rest as the caller's own contract has it. Must outlive
-/// every stream opened through it and every frame of those.
+/// Thread contract: any thread may call unmap(); all other functions follow the caller's contract. The object must
+/// outlive every stream opened through it, and all frames of those streams.
 class Calls {
  public:
   virtual ~Calls() = default;
 
-  /// The descriptor, not blocking, or -errno.
+  /// The descriptor, non-blocking, or -errno.
   virtual int open(const std::string& path) = 0;
   virtual void close(int fd) = 0;
-  /// 0 or errno; goes on when interrupted.
+  /// 0 or errno; continues after an interruption.
   virtual int ioctl(int fd, unsigned long request, void* argument) = 0;
-  /// Empty with `error` set when it fails.
+  /// Maps a buffer into memory. Empty on failure, with the cause in `error`.
   virtual std::span<std::byte> map(int fd, std::size_t bytes, std::uint32_t offset, int& error) = 0;
   virtual void unmap(std::span<std::byte> bytes) = 0;
-  /// What poll(2) says at once; 0: nothing.
+  /// The result of poll(2) without waiting; 0: no event.
   virtual short poll(int fd) = 0;
   virtual std::chrono::steady_clock::time_point now() = 0;
 
@@ -33,7 +33,7 @@ class Calls {
   virtual std::filesystem::path classes() const { return "/sys/class/video4linux"; }
 };
 
-/// The kernel's own.
+/// The calls of the real kernel.
 Calls& kernel_calls();
 
 }  // namespace azimuth::v4l2

@@ -6,7 +6,7 @@
 namespace azimuth::v4l2 {
 namespace {
 
-/// The range of a control; nothing: the camera has none that can be set.
+/// The range of a control; none: the camera has no such control that can be set.
 std::optional<v4l2_queryctrl> query(const Handle& handle, std::uint32_t id) {
   v4l2_queryctrl answer{};
   answer.id = id;
@@ -15,7 +15,7 @@ std::optional<v4l2_queryctrl> query(const Handle& handle, std::uint32_t id) {
   return (answer.flags & kNotOurs) == 0 ? std::optional(answer) : std::nullopt;
 }
 
-/// 0 or errno; `value` is sent or received.
+/// Sends or receives `value`. Returns 0 or errno.
 int exchange(const Handle& handle, unsigned long request, std::uint32_t id, int& value) {
   v4l2_ext_control control{};
   control.id = id;
@@ -36,13 +36,13 @@ bool has_menu_item(const Handle& handle, std::uint32_t id, int index) {
   return handle.call(VIDIOC_QUERYMENU, item) == 0;
 }
 
-/// Sets and reads back under the name a user knows.
+/// Sets controls and reads them back, with the names that users know.
 class Setter {
  public:
   Setter(const Handle& handle, std::vector<std::string>& refused) : handle_(handle), refused_(refused) {}
 
   bool has(std::uint32_t id) const { return query(handle_, id).has_value(); }
-  /// The first of `values` that the menu has.
+  /// The first of `values` that is in the menu.
   std::optional<int> first_in_menu(std::uint32_t id, std::initializer_list<int> values) const {
     for (const int value : values)
       if (has_menu_item(handle_, id, value)) return value;
@@ -69,7 +69,7 @@ class Setter {
   std::vector<std::string>& refused_;
 };
 
-/// Something with a switch for the camera's own choice and a value for ours.
+/// A control with a switch for the camera's automatic setting, and a fixed value.
 struct Pair {
   const char* name;
   std::uint32_t automatic;
@@ -84,7 +84,7 @@ void apply(Setter& setter, const Pair& pair, const ControlChoice& choice) {
   if (!automatic) setter.set(name, pair.value, choice.value);
 }
 
-/// Its switch is a menu, of which cameras have different parts.
+/// Sets the exposure. The switch for automatic exposure is a menu, and cameras support different items of it.
 void apply_exposure(Setter& setter, const ControlChoice& choice, bool may_lower_rate) {
   if (choice.mode == ControlChoice::Mode::keep) return;
   const bool automatic = choice.mode == ControlChoice::Mode::automatic;

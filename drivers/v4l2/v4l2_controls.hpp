@@ -1,5 +1,5 @@
 #pragma once
-// Internal to drivers/v4l2: exposure, gain and the like.
+// Internal to drivers/v4l2: exposure, gain and other controls.
 
 #include <string>
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace azimuth::v4l2 {
 
-/// Sets what is asked for and reads it back; what the camera has otherwise goes to `refused`, one sentence each. That a
-/// camera without a control cannot decide by itself either is no news.
+/// Sets the requested controls and reads them back. Each difference becomes a sentence in `refused`. A missing control
+/// is not reported if it was to be automatic.
 void apply_controls(const Handle& handle, const V4l2Settings& settings, std::vector<std::string>& refused);
 
 }  // namespace azimuth::v4l2

@@ -13,7 +13,7 @@ bool is_usb_number(std::string_view text) {
   return text.size() == 4 && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
-/// The part before the next colon, which goes with it.
+/// Takes the part before the next colon, and the colon.
 std::string take_part(std::string_view& text) {
   const std::size_t colon = text.find(':');
   std::string part(text.substr(0, colon));
@@ -59,7 +59,7 @@ tl::expected<Handle, CameraTrouble> open_named(Calls& calls, const std::string& 
   const auto name = parse_name(text);
   if (!name) return tl::unexpected(CameraTrouble{text + ": not a camera's name", EINVAL});
   if (!name->path.empty()) return open_path(calls, name->path);
-  // Of those that match none may open: then the first one's reason is what the user needs.
+  // If no matching node can be opened, the error of the first one is reported.
   CameraTrouble trouble{text + ": no such camera", ENODEV};
   bool any = false;
   for (const std::string& node : node_names(calls)) {

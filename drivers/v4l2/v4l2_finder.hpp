@@ -1,5 +1,5 @@
 #pragma once
-// Internal to drivers/v4l2: which node is the camera that is meant.
+// Internal to drivers/v4l2: finds the node of the camera that the settings name.
 
 #include <filesystem>
 #include <optional>
@@ -12,24 +12,24 @@
 
 namespace azimuth::v4l2 {
 
-/// How a camera is named in the settings; see V4l2Settings::device. Empty parts: any.
+/// The name of a camera in the settings; see V4l2Settings::device. Empty members match any camera.
 struct CameraName {
   std::string path;
-  std::string vendor, product, serial;  ///< of its USB device
+  std::string vendor, product, serial;  ///< ids of its USB device
   std::string card;
 };
 
-/// Nothing: not a name of any kind.
+/// None: the text is not a valid name.
 std::optional<CameraName> parse_name(std::string_view text);
 
-/// Whether the USB device is one that the name allows.
+/// True: the name matches the USB device.
 bool matches(const CameraName& name, const UsbIdentity& usb);
 
-/// Opens the node that is meant: a path as it stands; else the one with the lowest number that matches and gives images
-/// (a camera may have further nodes, for its metadata).
+/// Opens the named node. A path is used as it is; otherwise the node with the lowest number that matches and provides
+/// images (a camera may have further nodes, for its metadata).
 tl::expected<Handle, CameraTrouble> open_named(Calls& calls, const std::string& name);
 
-/// Where the node's device is plugged in, as sysfs names it ("1-2.3"); empty: not by USB.
+/// The USB port of the node's device as named by sysfs ("1-2.3"); empty: not on USB.
 std::string usb_port(const Calls& calls, const std::filesystem::path& node);
 
 }  // namespace azimuth::v4l2

@@ -12,8 +12,8 @@ struct Known {
   PixelFormat pixels;
 };
 
-/// Ordered by what they cost a front end that looks at brightness: luma on its own, luma among chroma, sums of colours,
-/// colours to be guessed, and last what has to be decompressed.
+/// The supported formats in the order of their cost for a front end that uses brightness: separate luma, luma
+/// interleaved with chroma, sums of colours, colours to be interpolated, and finally compressed formats.
 constexpr std::array kKnown{
     Known{V4L2_PIX_FMT_GREY, PixelFormat::gray8},         Known{V4L2_PIX_FMT_NV12, PixelFormat::nv12},
     Known{V4L2_PIX_FMT_YUYV, PixelFormat::yuyv},          Known{V4L2_PIX_FMT_UYVY, PixelFormat::uyvy},
@@ -22,7 +22,7 @@ constexpr std::array kKnown{
     Known{V4L2_PIX_FMT_SGBRG8, PixelFormat::bayer_gbrg8}, Known{V4L2_PIX_FMT_SBGGR8, PixelFormat::bayer_bggr8},
     Known{V4L2_PIX_FMT_MJPEG, PixelFormat::mjpeg},        Known{V4L2_PIX_FMT_JPEG, PixelFormat::mjpeg}};
 
-/// 4:2:2 keeps twice the colour of 4:2:0, which a front end that looks for colours wants.
+/// 4:2:2 has twice the colour resolution of 4:2:0, so a front end for colours prefers it.
 constexpr std::array kColourFirst{V4L2_PIX_FMT_YUYV, V4L2_PIX_FMT_UYVY, V4L2_PIX_FMT_RGB24, V4L2_PIX_FMT_BGR24};
 
 int as_int(std::uint32_t number) {

@@ -11,7 +11,7 @@
 
 namespace azimuth::v4l2 {
 
-/// An open node, and the words for what it has against us. Closes it in the end.
+/// An open node, which creates the texts of its errors and closes the node in the end.
 ///
 /// Thread contract: thread-bound.
 class Handle {
@@ -30,13 +30,13 @@ class Handle {
   const std::string& device() const { return device_; }
   int descriptor() const { return fd_; }
 
-  /// 0 or errno.
+  /// Returns 0 or errno.
   template <class Argument>
   int call(unsigned long request, Argument& argument) const {
     return calls_->ioctl(fd_, request, &argument);
   }
 
-  /// "/dev/video0: VIDIOC_S_FMT: Device or resource busy"; without errno as it is.
+  /// "/dev/video0: VIDIOC_S_FMT: Device or resource busy"; without an errno, only the first two parts.
   CameraTrouble trouble(std::string_view what, int error = 0) const;
 
  private:
@@ -45,17 +45,17 @@ class Handle {
   int fd_;
 };
 
-/// What a node can do, as QUERYCAP says.
+/// The capabilities of a node according to VIDIOC_QUERYCAP.
 struct Abilities {
   std::string card;
-  std::uint32_t buffer_type = 0;  ///< of images; 0: it gives none, or not by streaming
+  std::uint32_t buffer_type = 0;  ///< type for images; 0: the node provides none, or not by streaming
   bool has_planes() const { return buffer_type == V4L2_BUF_TYPE_VIDEO_CAPTURE_MPLANE; }
 };
 
-/// errno, or 0 and `abilities`.
+/// Returns errno, or 0 with `abilities` filled in.
 int ask_abilities(const Handle& handle, Abilities& abilities);
 
-/// "No such device", for errno.
+/// The text of an errno, e.g. "No such device".
 std::string error_text(int error);
 
 }  // namespace azimuth::v4l2

@@ -9,9 +9,9 @@
 namespace azimuth::v4l2 {
 namespace {
 
-/// Rates nearer than this to each other are the same.
+/// Relative difference up to which two rates count as equal.
 constexpr double kSameRate = 0.02;
-/// No device has more; a driver that never ends its list shall not keep us.
+/// Limits the loop for drivers that never end their list. No device has more entries.
 constexpr std::uint32_t kMostListed = 256;
 
 std::string size_text(const ImageLayout& layout) {
@@ -24,7 +24,7 @@ std::string rate_text(double rate_hz) {
   return text.data();
 }
 
-/// Codes the device lists, in its own order.
+/// The codes that the device lists, in the device's order.
 std::vector<std::uint32_t> listed_formats(const Handle& handle, std::uint32_t buffer_type) {
   std::vector<std::uint32_t> codes;
   for (std::uint32_t i = 0; i < kMostListed; ++i) {
@@ -41,7 +41,7 @@ double rate_of(const v4l2_fract& interval) {
   return interval.numerator == 0 ? 0.0 : static_cast<double>(interval.denominator) / interval.numerator;
 }
 
-/// The fastest the device lists; 0: it lists none.
+/// The fastest rate that the device lists; 0: it lists none.
 double fastest_rate(const Handle& handle, std::uint32_t code, int width_px, int height_px) {
   double fastest = 0.0;
   for (std::uint32_t i = 0; i < kMostListed; ++i) {
@@ -57,7 +57,7 @@ double fastest_rate(const Handle& handle, std::uint32_t code, int width_px, int 
   return fastest;
 }
 
-/// What the device has of what can be read, best first.
+/// The supported formats of the device, best first.
 std::vector<std::uint32_t> candidates(const Handle& handle, std::uint32_t buffer_type, const V4l2Settings& settings,
                                       const ImageLayout& wanted) {
   std::vector<std::uint32_t> codes = parse_formats(settings.formats).value_or(std::vector<std::uint32_t>{});
@@ -65,7 +65,7 @@ std::vector<std::uint32_t> candidates(const Handle& handle, std::uint32_t buffer
   const std::vector<std::uint32_t> listed = listed_formats(handle, buffer_type);
   std::erase_if(codes, [&](std::uint32_t code) { return std::ranges::find(listed, code) == listed.end(); });
   if (settings.rate_hz > 0.0) {
-    // Not the one of std::ranges, whose result clang 14 cannot take apart.
+    // std::ranges is not used, because clang 14 cannot destructure its result.
     std::stable_partition(codes.begin(), codes.end(), [&](std::uint32_t code) {
       const double fastest = fastest_rate(handle, code, wanted.width_px, wanted.height_px);
       return fastest == 0.0 || fastest >= settings.rate_hz * (1.0 - kSameRate);
@@ -76,7 +76,7 @@ std::vector<std::uint32_t> candidates(const Handle& handle, std::uint32_t buffer
 
 void add_word(std::string& words, const std::string& word) { words += (words.empty() ? "" : ", ") + word; }
 
-/// The rate that was agreed; 0: the device has no say in it.
+/// The agreed rate; 0: the device cannot set a rate.
 double agree_on_rate(const Handle& handle, std::uint32_t buffer_type, double wanted_hz,
                      std::vector<std::string>& refused) {
   v4l2_streamparm parameters{};

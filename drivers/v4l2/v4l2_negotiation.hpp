@@ -1,5 +1,5 @@
 #pragma once
-// Internal to drivers/v4l2: format, size and rate.
+// Internal to drivers/v4l2: negotiation of format, size and rate.
 
 #include <tl/expected.hpp>
 
@@ -9,14 +9,14 @@
 
 namespace azimuth::v4l2 {
 
-/// What camera and settings agree on.
+/// The agreed format and rate.
 struct Agreement {
   FrameFormat format{};
-  double rate_hz = 0.0;  ///< 0: the device does not say
+  double rate_hz = 0.0;  ///< 0: the device does not report it
 };
 
-/// Sets the first format in order of preference that the device has in exactly the size wanted; those in which it does
-/// not reach the rate wanted come last. What it does otherwise than asked goes to `refused`.
+/// Sets the first format in order of preference that the device has in exactly the requested size. Formats that do not
+/// reach the requested rate come last. Each difference from the request becomes a sentence in `refused`.
 tl::expected<Agreement, CameraTrouble> negotiate(const Handle& handle, const Abilities& abilities,
                                                  const V4l2Settings& settings, std::vector<std::string>& refused);
 

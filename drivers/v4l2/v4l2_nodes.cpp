@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// First line of an attribute; empty when it cannot be read.
+/// The first line of an attribute; empty when it cannot be read.
 std::string attribute(const fs::path& file) {
   std::string line;
   std::ifstream in(file);
@@ -22,7 +22,7 @@ std::string attribute(const fs::path& file) {
   return line;
 }
 
-/// The directory of the USB device that the node belongs to; empty: none.
+/// The directory of the USB device to which the node belongs; empty: none.
 fs::path usb_device(const Calls& calls, const std::string& node) {
   std::error_code error;
   fs::path directory = fs::canonical(calls.classes() / node / "device", error);
@@ -32,7 +32,7 @@ fs::path usb_device(const Calls& calls, const std::string& node) {
   return {};
 }
 
-/// "video12" is 12.
+/// The number in the name of a node, e.g. 12 for "video12".
 std::optional<int> node_number(const std::string& node) {
   constexpr std::string_view kBegin = "video";
   if (!node.starts_with(kBegin)) return std::nullopt;

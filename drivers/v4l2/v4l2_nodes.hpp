@@ -1,6 +1,6 @@
 #pragma once
-// Which cameras of the kernel's video interface there are, for a user who is to choose one.
-// Thread contract: reentrant, for different `calls`.
+// Lists the cameras of the kernel's video interface, for a user who has to choose one. Thread contract: reentrant, for
+// different `calls`.
 
 #include <optional>
 #include <span>
@@ -12,34 +12,35 @@
 
 namespace azimuth::v4l2 {
 
-/// The USB device behind a node; all empty: there is none.
+/// The USB device behind a node; all members are empty if there is none.
 struct UsbIdentity {
-  std::string port;                     ///< as sysfs names it ("1-2.3")
-  std::string vendor, product, serial;  ///< as sysfs has them, numbers in hexadecimal
+  std::string port;                     ///< as named by sysfs ("1-2.3")
+  std::string vendor, product, serial;  ///< as in sysfs, numbers in hexadecimal
 };
 
 struct VideoNode {
   std::string path{};  ///< "/dev/video0"
-  std::string card{};  ///< as the driver calls it
+  std::string card{};  ///< the driver's name of the camera
   UsbIdentity usb{};
-  int open_error = 0;                  ///< errno; 0: this process may open it
-  std::optional<bool> gives_images{};  ///< false: of metadata, or the like; nothing: it does not tell
+  int open_error = 0;  ///< errno; 0: this process may open it
+  /// False: the node provides only metadata or similar data; none: unknown.
+  std::optional<bool> gives_images{};
 };
 
-/// Of "video0".
+/// `node` is a name such as "video0".
 UsbIdentity usb_identity(const Calls& calls, const std::string& node);
 
 /// The names of all nodes, by number.
 std::vector<std::string> node_names(const Calls& calls);
 
-/// All nodes, by number. Opens each for a moment, which disturbs nobody.
+/// All nodes, by number. Opens each for a moment, which disturbs no other program.
 std::vector<VideoNode> video_nodes(Calls& calls);
 
-/// Whether a name other than a path (V4l2Settings::device) means the node; false for a wrong name.
+/// True: a name other than a path (V4l2Settings::device) matches the node. False for an invalid name.
 bool is_meant(std::string_view name, const VideoNode& node);
 
-/// What to write for V4l2Settings::device to have this one of `all`, whatever number it gets: by serial, USB numbers,
-/// both, or card, the first of these that means no other; its path when none does.
+/// A value of V4l2Settings::device that selects this node among `all`, even when its number changes: by serial number,
+/// USB ids, both, or card, the first of these that matches no other node; its path when none does.
 std::string lasting_name(const VideoNode& node, std::span<const VideoNode> all);
 
 }  // namespace azimuth::v4l2

@@ -19,10 +19,10 @@ namespace v4l2 {
 
 namespace {
 
-/// The least that lets the driver fill a buffer while one is looked at.
+/// Smallest number of buffers, so that the driver can fill one while another is read.
 constexpr unsigned kFewestBuffers = 2;
 
-/// An image whose driver does not name its clock is believed to be at most so old when it is dequeued.
+/// Largest plausible age at dequeueing of an image whose driver does not name its clock.
 constexpr Duration kOldest{1'000'000};
 
 class Stream final : public ImageStream {
@@ -37,7 +37,7 @@ class Stream final : public ImageStream {
   Stream(const Stream&) = delete;
   Stream& operator=(const Stream&) = delete;
 
-  /// False: trouble() says why.
+  /// False: trouble() tells why.
   bool start(const Abilities& abilities, const V4l2Settings& settings);
 
   int descriptor() const override { return events_.get(); }
@@ -65,7 +65,7 @@ class Stream final : public ImageStream {
   Stamp stamp_of(const BufferCall& filled) const;
   Stamp now() const { return stamp_at(handle_.calls().now()); }
   void stop();
-  /// Keeps what went wrong; always false.
+  /// Stores what went wrong, and returns false.
   bool fail(std::string_view what, int error = 0) {
     trouble_ = handle_.trouble(what, error);
     return false;
@@ -73,12 +73,12 @@ class Stream final : public ImageStream {
 
   Handle handle_;
   std::uint32_t buffer_type_;
-  UniqueFd events_;  // the device's, and the bell of leases that come back
+  UniqueFd events_;  // an epoll of the device and of the bell for returned leases
   std::shared_ptr<Buffers> buffers_;
-  std::uint32_t leased_ = 0;                  // slots, one bit each
-  std::uint32_t queued_ = 0;                  // likewise, those the driver has
-  std::optional<std::uint32_t> last_number_;  // as the driver counts
-  std::uint64_t sequence_ = 1ULL << 32U;      // room to go backwards, should the driver do so
+  std::uint32_t leased_ = 0;                  // leased slots, one bit each
+  std::uint32_t queued_ = 0;                  // slots queued in the driver, one bit each
+  std::optional<std::uint32_t> last_number_;  // the driver's number of the last image
+  std::uint64_t sequence_ = 1ULL << 32U;      // starts high, in case the driver's numbers go backwards
   bool streaming_ = false;
   Stamp started_{};
   StreamDescription description_;
@@ -127,7 +127,7 @@ bool Stream::make_buffers(int wanted) {
 bool Stream::map_buffer(unsigned index) {
   BufferCall buffer(buffer_type_, index);
   if (const int error = buffer.send(handle_, VIDIOC_QUERYBUF)) return fail("VIDIOC_QUERYBUF", error);
-  // A JPEG image of any length must find room, an uncompressed one its own size.
+  // A JPEG image has no fixed size. The buffer must hold an uncompressed image.
   if (buffer.length() == 0 || buffer.length() < description_.format.bytes())
     return fail("has buffers of " + std::to_string(buffer.length()) + " bytes, too small for an image");
   if (index == 0 && !buffer.stamp_is_monotonic())
@@ -146,8 +146,8 @@ bool Stream::watch(int fd) const {
   return ::epoll_ctl(events_.get(), EPOLL_CTL_ADD, fd, &readable) == 0;
 }
 
-/// v4l2loopback only remembers a watcher that comes while no image is ready; one that came earlier would sleep for
-/// good. To watch again once there is nothing left to read costs two calls an image.
+/// v4l2loopback notifies only a watcher that is added while no image is ready; an earlier watcher would sleep for ever.
+/// So the descriptor is watched again when there is nothing left to read, at a cost of two calls per image.
 bool Stream::watch_again() const {
   const int fd = handle_.descriptor();
   return ::epoll_ctl(events_.get(), EPOLL_CTL_DEL, fd, nullptr) == 0 && watch(fd);
@@ -176,7 +176,7 @@ ImageStream::Read Stream::read(Frame& into) {
   return *outcome;
 }
 
-/// Nothing: an image from before this stream, to be passed over.
+/// None: an image from before this stream, to be skipped.
 std::optional<ImageStream::Read> Stream::dequeue(Frame& into) {
   BufferCall filled(buffer_type_);
   if (const int error = filled.send(handle_, VIDIOC_DQBUF)) {
@@ -202,7 +202,7 @@ std::optional<ImageStream::Read> Stream::dequeue(Frame& into) {
   return Read::image;
 }
 
-/// A device that is gone or in error may have nothing more to say than that.
+/// A device that is gone or in error reports only this event.
 ImageStream::Read Stream::nothing_or_failed() {
   const short events = handle_.calls().poll(handle_.descriptor());
   if ((events & (POLLERR | POLLHUP | POLLNVAL)) == 0) {
@@ -219,14 +219,14 @@ bool Stream::is_ours(const BufferCall& filled) const {
   return index < buffers_->count() && (queued_ >> index & 1U) != 0;
 }
 
-/// v4l2loopback writes into its few buffers in turn, whoever has them. What that does to the image being looked at
-/// cannot be helped; the one that came over it is lost until the buffer is back.
+/// v4l2loopback reuses its few buffers in turn, even leased ones. The leased image is then overwritten, which cannot be
+/// prevented. The new image is lost until the lease is returned.
 bool Stream::is_leased(const BufferCall& filled) const {
   const std::uint32_t index = filled.buffer().index;
   return index < buffers_->count() && (leased_ >> index & 1U) != 0;
 }
 
-/// v4l2loopback hands on what lay in its buffers before, with numbers that are not those of the images.
+/// v4l2loopback delivers old contents of its buffers, with numbers that do not belong to the images.
 bool Stream::is_older(const BufferCall& filled, Stamp stamp) const {
   return !filled.stamp_is_monotonic() && stamp < started_;
 }
@@ -241,7 +241,7 @@ bool Stream::is_whole(const BufferCall& filled) const {
   return size > 2 && image[0] == std::byte{0xFF} && image[1] == std::byte{0xD8};  // start of image
 }
 
-/// Over the driver's 32 bits: the shorter way round is the one it went.
+/// Unwraps the driver's 32-bit number by the shorter way.
 void Stream::count(std::uint32_t number) {
   const auto step = static_cast<std::int32_t>(number - last_number_.value_or(number));
   sequence_ += static_cast<std::uint64_t>(std::int64_t{step});
@@ -259,7 +259,8 @@ Frame Stream::lease(const BufferCall& filled, Stamp stamp) {
   return frame;
 }
 
-/// Some drivers stamp on the monotonic clock and do not say so. Other clocks are further from it than an image is old.
+/// Some drivers stamp on the monotonic clock without saying so. A stamp on another clock differs from the current time
+/// by more than the age of an image.
 Stamp Stream::stamp_of(const BufferCall& filled) const {
   const Stamp stamp = to_stamp(filled.buffer().timestamp);
   if (filled.stamp_is_monotonic()) return stamp;
@@ -267,8 +268,8 @@ Stamp Stream::stamp_of(const BufferCall& filled) const {
   return now - kOldest <= stamp && stamp <= now ? stamp : now;
 }
 
-/// Also of a device that is gone: each step may fail, and none matters then. Buffers still leased are left to their
-/// leases; giving them up lets the next stream have buffers of its own meanwhile.
+/// Stops the stream, even when the device is gone; a failed step then does not matter. Leased buffers stay with their
+/// leases. The driver's buffers are released, so that the next stream can have its own.
 void Stream::stop() {
   int type = static_cast<int>(buffer_type_);
   if (streaming_) handle_.call(VIDIOC_STREAMOFF, type);

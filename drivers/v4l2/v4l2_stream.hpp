@@ -7,12 +7,12 @@
 
 namespace azimuth {
 
-/// Opens a camera of the kernel's video interface, agrees with it on a format, sets it up and starts it.
+/// Opens a camera of the kernel's video interface, negotiates a format, configures and starts it.
 ///
-/// Its images are leases on the driver's mapped buffers, which stay mapped as long as a lease lives, even when the
-/// stream or the device is gone. Stamps are the kernel's own; where a driver has them from another clock than
-/// CLOCK_MONOTONIC the time of dequeueing stands in, which the description says. Sequence numbers are the driver's,
-/// unwrapped.
+/// Its images are leases on the driver's mapped buffers, which stay mapped as long as a lease lives, even after the end
+/// of the stream or the device. Stamps are the kernel's own. When a driver stamps by another clock than
+/// CLOCK_MONOTONIC, the time of dequeueing is used instead, and the description says so. Sequence numbers are the
+/// driver's, unwrapped.
 ///
 /// `calls` must outlive the stream and its frames.
 OpenedStream open_v4l2(const V4l2Settings& settings, v4l2::Calls& calls = v4l2::kernel_calls());

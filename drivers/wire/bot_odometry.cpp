@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kMaxNormError = 0.05;
 
-/// The turn about the vertical of a quaternion (w, x, y, z); nothing for one that is none.
+/// The rotation about the vertical of a quaternion (w, x, y, z); none when it is not a unit quaternion.
 std::optional<double> heading_of(const double (&q)[4]) {
   const double norm = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
   if (!(std::abs(norm - 1.0) <= kMaxNormError)) return std::nullopt;

@@ -1,5 +1,5 @@
 #pragma once
-// Wheel odometry as programs that know bot_core send it: pose_t, read as a cumulative pose in the plane.
+// Wheel odometry in the form of bot_core programs: pose_t, read as a cumulative pose in the plane.
 //
 // Thread contract: reentrant.
 
@@ -13,12 +13,12 @@
 
 namespace azimuth {
 
-/// Stamp and pose; such messages have neither sequence nor origin. Nothing when the bytes are no sound pose_t, or its
-/// orientation is none.
+/// Decodes stamp and pose; pose_t has neither sequence nor origin. None when the bytes are not a valid pose_t, or its
+/// orientation is invalid.
 std::optional<OdometryReading> decode_bot_odometry(Bytes data);
 
-/// Gives readings of one recording, which are in the order of their stamps, sequence numbers, and where wheels cannot
-/// have gone from one to the next, a new origin (part_at_jumps()).
+/// Assigns sequence numbers to the readings of one recording, which are in the order of their stamps. Where wheels
+/// cannot have moved from one reading to the next, a new origin starts (part_at_jumps()).
 std::vector<OdometryJump> number_odometry(std::span<OdometryReading> readings);
 
 }  // namespace azimuth

@@ -1,5 +1,5 @@
 #pragma once
-// The names of our LCM channels (before a prefix) and what they carry.
+// The names of the project's LCM channels (without a prefix), and their message types.
 
 #include <string_view>
 
@@ -17,7 +17,7 @@ inline constexpr std::string_view kStatus = "AZIMUTH_STATUS";        ///< status
 inline constexpr std::string_view kSightings = "AZIMUTH_SIGHTINGS";  ///< sightings_t
 inline constexpr std::string_view kExpected = "AZIMUTH_EXPECTED";    ///< expectations_t
 inline constexpr std::string_view kKept = "AZIMUTH_KEPT";            ///< kept_t
-inline constexpr std::string_view kPicture = "AZIMUTH_PICTURE";      ///< image_t: what was seen and expected
+inline constexpr std::string_view kPicture = "AZIMUTH_PICTURE";      ///< image_t: picture of bearings
 inline constexpr std::string_view kTruth = "AZIMUTH_TRUTH";          ///< odometry_t: T_world_body
 inline constexpr std::string_view kTruthMap = "AZIMUTH_TRUTH_MAP";   ///< map_chunk_t
 inline constexpr std::string_view kDocument = "AZIMUTH_DOCUMENT";    ///< document_t

@@ -26,21 +26,22 @@ Word big_endian(Bytes bytes) {
   return word;
 }
 
-/// The end of the log is as good a place for a boundary as a sync word, and so is a sync word cut by it.
+/// True: an event may end here. The end of the log counts like a sync word, and so does a sync word truncated by the
+/// end.
 bool is_boundary(Bytes log, std::size_t at) {
   const std::size_t length = std::min(kSync.size(), log.size() - at);
   return std::equal(kSync.begin(), kSync.begin() + static_cast<std::ptrdiff_t>(length),
                     log.begin() + static_cast<std::ptrdiff_t>(at));
 }
 
-/// The next whole sync word at or after `from`, else the end of the log.
+/// The next complete sync word at or after `from`; otherwise the end of the log.
 std::size_t find_sync(Bytes log, std::size_t from) {
   const auto found =
       std::search(log.begin() + static_cast<std::ptrdiff_t>(from), log.end(), kSync.begin(), kSync.end());
   return static_cast<std::size_t>(found - log.begin());
 }
 
-/// The event beginning at `at`, if there is one with lengths in bounds that ends within the log.
+/// The event that begins at `at`, if its lengths are within the limits and it ends within the log.
 std::optional<LogEvent> event_at(Bytes log, std::size_t at) {
   const Bytes rest = log.subspan(at);
   if (rest.size() < kEventHeaderSize || !std::equal(kSync.begin(), kSync.end(), rest.begin())) return std::nullopt;
@@ -76,7 +77,7 @@ std::optional<LogEvent> EventScanner::event_at(std::size_t at) {
   return azimuth::event_at(log_, at);
 }
 
-/// Where in [from, before) an event begins that is followed by a boundary; `before` if none does.
+/// The position in [from, before) of an event that is followed by a boundary; `before` if there is none.
 std::size_t EventScanner::find_bounded_event(std::size_t from, std::size_t before) {
   for (std::size_t at = find_sync(log_, from); at < before; at = find_sync(log_, at + 1)) {
     const auto event = event_at(at);

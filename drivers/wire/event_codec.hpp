@@ -1,5 +1,5 @@
 #pragma once
-// LCM's event log format, on bytes: sync word, event number, time, two lengths (28 bytes, big-endian), channel, data.
+// LCM's event log format as bytes: sync word, event number, time, two lengths (28 bytes, big-endian), channel, data.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,8 +13,8 @@ namespace azimuth {
 
 /// One event of a log. Borrows channel and data.
 struct LogEvent {
-  std::int64_t number = 0;    ///< counts events, from 0
-  std::int64_t utime_us = 0;  ///< when the event was recorded, microseconds since the epoch
+  std::int64_t number = 0;    ///< counts events from 0
+  std::int64_t utime_us = 0;  ///< time of recording [us since the epoch]
   std::string_view channel;   ///< 1 to kMaxChannelLength bytes
   Bytes data;                 ///< at most kMaxEventData bytes
 };
@@ -26,21 +26,21 @@ inline constexpr std::size_t kMaxEventData = std::size_t{256} << 20U;  // the la
 /// Appends the encoded event. Requires lengths within the limits above.
 void append_event(std::vector<std::byte>& out, const LogEvent& event);
 
-/// Walks the events of a log held in memory, whatever its bytes: what belongs to no whole event is skipped and counted.
+/// Reads the events of a log in memory, for any bytes. Bytes that belong to no complete event are skipped and counted.
 ///
-/// An event counts as whole when it is followed by another one or by the end. One that is followed by anything else is
-/// believed only if no whole event begins inside it, so that a wrong length or a cut loses no event but its own. Time
-/// is linear in the size of the log; nothing is allocated. Thread contract: thread-bound.
+/// An event counts as complete when another event or the end follows it. An event followed by anything else is accepted
+/// only if no complete event begins inside it, so that a wrong length or a truncation loses only the damaged event. The
+/// time is linear in the size of the log; nothing is allocated. Thread contract: thread-bound.
 class EventScanner {
  public:
   explicit EventScanner(Bytes log) : log_(log) {}
 
-  /// The next whole event, which borrows from the log; nothing at the end.
+  /// The next complete event, which borrows from the log; none at the end.
   std::optional<LogEvent> next();
 
-  /// Bytes skipped so far.
+  /// Number of bytes skipped so far.
   std::uint64_t damaged_bytes() const { return damaged_bytes_; }
-  /// How often it looked whether an event begins at a place, which is what takes the time.
+  /// Number of positions tested for the beginning of an event, which dominates the run time.
   std::uint64_t headers_read() const { return headers_read_; }
 
  private:

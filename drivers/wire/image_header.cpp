@@ -11,7 +11,7 @@ namespace {
 int byte_at(Bytes file, std::size_t at) { return std::to_integer<int>(file[at]); }
 int word_at(Bytes file, std::size_t at) { return 256 * byte_at(file, at) + byte_at(file, at + 1); }
 
-/// SOF0 to SOF15 without the tables that stand between them.
+/// True: one of the markers SOF0 to SOF15, without the table markers in that range.
 bool begins_frame(int marker) {
   return marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
 }

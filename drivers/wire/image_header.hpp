@@ -1,5 +1,5 @@
 #pragma once
-// What the bytes of a compressed image claim to be, without a decoder. Any bytes are safe.
+// The properties in the header of a compressed image, without a decoder. Any bytes are safe.
 //
 // Thread contract: reentrant.
 
@@ -10,11 +10,10 @@
 
 namespace azimuth {
 
-/// Width and height [px] that a JPEG file claims: what viewers of logs need to know. Nothing when there is no such
-/// header.
+/// Width and height [px] in the header of a JPEG file, for viewers of logs. None without such a header.
 std::optional<std::pair<int, int>> jpeg_size(Bytes file);
 
-/// Whether a file claims to be a PNG image: its first 8 bytes.
+/// True: the file starts with the 8 bytes of a PNG image.
 bool is_png(Bytes file);
 
 }  // namespace azimuth

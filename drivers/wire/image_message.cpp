@@ -23,7 +23,7 @@ constexpr std::array<std::pair<std::int32_t, PixelFormat>, kPixelFormats> kForma
      {image_t::PIXEL_FORMAT_MJPEG, PixelFormat::mjpeg},
      {image_t::PIXEL_FORMAT_NV12, PixelFormat::nv12}}};
 
-/// Walks over big-endian fields; past the end everything is zero and remembered.
+/// Reads big-endian fields. Reads past the end return zero and are recorded.
 class Walk {
  public:
   explicit Walk(Bytes data) : rest_(data) {}
@@ -55,7 +55,7 @@ class Walk {
   bool too_short_ = false;
 };
 
-/// A negative count is one that no message is long enough for.
+/// Skips the metadata. A negative count reads as a number for which no message is long enough.
 void skip_metadata(Walk& walk) {
   for (std::uint32_t left = walk.uint32(); left > 0 && walk.good(); --left) {
     walk.bytes(walk.uint32());  // key
@@ -63,7 +63,7 @@ void skip_metadata(Walk& walk) {
   }
 }
 
-/// The sides of a JPEG image stand in its own header, so that nothing depends on those of the message.
+/// The size of a JPEG image is in its own header, so the size in the message is not used.
 std::optional<ImageView> view_of(FrameFormat format, Bytes pixels) {
   if (format.pixels == PixelFormat::mjpeg) {
     format.stride_bytes = 0;

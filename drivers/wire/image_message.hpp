@@ -1,7 +1,7 @@
 #pragma once
-// Images as LCM messages (image_t) and back.
+// Images as LCM messages (image_t), and back.
 //
-// The decoding function takes bytes from anywhere; see messages.hpp. Thread contract: reentrant.
+// The decoding function accepts bytes from any origin; see messages.hpp. Thread contract: reentrant.
 
 #include <azimuth/image_t.hpp>
 #include <cstdint>
@@ -13,21 +13,21 @@
 
 namespace azimuth {
 
-/// An image as it lies in a message. Borrows the message's bytes.
+/// An image inside a message. Borrows the message's bytes.
 struct ImageMessage {
   Stamp stamp{};
   ImageView image;         ///< without bytes: a JPEG image that could not be read when the message was made
-  bool supported = false;  ///< false: of a pixel format that nothing here can read; `image` is empty
+  bool supported = false;  ///< false: the pixel format is not supported; `image` is empty
 };
 
-/// Whether the bytes claim to be an image_t: the channel's name is in use for other things too.
+/// True: the bytes claim to be an image_t. Other message types use the same channel name.
 bool claims_image(Bytes data);
 
-/// Looks only at the frame round the pixels. Nothing when the bytes are no such message, or say of pixels in a
-/// supported format what cannot be: a size beyond kMaxFrameSide_px, rows that overlap, fewer bytes than rows.
+/// Checks only the message around the pixels. None when the bytes are not such a message, or when an image in a
+/// supported format is impossible: a side beyond kMaxFrameSide_px, overlapping rows, or fewer bytes than the rows need.
 std::optional<ImageMessage> decode_image(Bytes data);
 
-/// `image` as it is; a view without bytes makes an empty JPEG image. `message` is used again.
+/// Writes `image` unchanged; a view without bytes becomes an empty JPEG image. The storage of `message` is reused.
 void fill_message(const ImageView& image, Stamp stamp, image_t& message);
 
 }  // namespace azimuth

@@ -30,13 +30,13 @@ bool has_fingerprint(Bytes data) {
   return fingerprint == static_cast<std::uint64_t>(Message::getHash());
 }
 
-/// Size on the wire of a message whose arrays and texts are empty, or of an element with a fingerprint.
+/// Encoded size of a message with empty arrays and texts, or of an element with a fingerprint.
 template <class Message>
 std::size_t empty_size() {
   return static_cast<std::size_t>(Message{}.getEncodedSize());
 }
 
-/// Decodes bytes whose lengths and counts are known to be those of a message of exactly this size.
+/// Decodes bytes whose lengths and counts have been checked to match a message of exactly this size.
 template <class Message>
 std::optional<Message> decode_checked(Bytes data) {
   constexpr auto kMaxSize = static_cast<std::size_t>(std::numeric_limits<int>::max());
@@ -48,7 +48,7 @@ std::optional<Message> decode_checked(Bytes data) {
   return message;
 }
 
-/// Of a message that ends with `int32_t n; Element elements[n]`.
+/// Decodes a message that ends with `int32_t n; Element elements[n]`.
 template <class Message, class Element>
 std::optional<Message> decode_array(Bytes data) {
   const std::size_t size_without = empty_size<Message>();
@@ -60,7 +60,7 @@ std::optional<Message> decode_array(Bytes data) {
   return decode_checked<Message>(data);
 }
 
-/// Whether a features_t of exactly this size can have the counts that stand in it.
+/// True: the counts in a features_t match its size.
 bool counts_fit(Bytes data, std::size_t size_without) {
   const std::int64_t n = uint32_at(data, size_without - 12), descriptors = uint32_at(data, size_without - 8),
                      neighbours = uint32_at(data, size_without - 4);
@@ -84,7 +84,7 @@ Bearing to_bearing(const feature_t& feature) {
           .sigma_elevation_rad = feature.sigma_elevation_rad};
 }
 
-/// False: a value that cannot be true.
+/// False: a value is implausible.
 bool append_bearing(Bearing bearing, BearingSet& set) {
   if (!is_plausible(bearing)) return false;
   if (is_plausible_azimuth(bearing.azimuth_rad)) bearing.azimuth_rad = wrap(bearing.azimuth_rad);
@@ -92,7 +92,7 @@ bool append_bearing(Bearing bearing, BearingSet& set) {
   return true;
 }
 
-/// False: one of them is not in the set.
+/// False: a neighbour is not in the set.
 bool append_neighbours(const neighbours_t& message, std::size_t count, BearingSet& set) {
   Neighbours neighbours;
   for (std::size_t i = 0; i < Neighbours::kMost; ++i) {
@@ -103,15 +103,14 @@ bool append_neighbours(const neighbours_t& message, std::size_t count, BearingSe
   return true;
 }
 
-/// Bytes between the texts of a status_t: before the first, between each two, behind the last.
+/// Number of bytes before the first text of a status_t, between each two texts, and after the last.
 constexpr std::array<std::size_t, 11> kBetweenTexts{33, 188, 16, 0, 0, 0, 0, 0, 56, 0, 12};
 
-/// Whether it is one as C has them: the only NUL is at its end. With another it would be written shorter than it was
-/// read.
+/// True: the only NUL is at the end. A text with another NUL would be encoded shorter than it was decoded.
 bool is_text(Bytes text) { return !text.empty() && std::ranges::find(text, std::byte{0}) == text.end() - 1; }
 
-/// Whether each text, which its length with the closing NUL stands before, lies within the bytes, and these end where
-/// they should.
+/// True: each text, preceded by its length including the closing NUL, lies within the bytes, and the message ends at
+/// the right place.
 bool texts_fit(Bytes data) {
   std::size_t at = 0;
   for (std::size_t i = 0; i + 1 < kBetweenTexts.size(); ++i) {
@@ -125,7 +124,7 @@ bool texts_fit(Bytes data) {
   return data.size() - at == kBetweenTexts.back();
 }
 
-/// A piece of something that has pieces.
+/// True: the number of the piece is within the number of pieces.
 template <class Chunk>
 bool is_a_piece(const Chunk& chunk) {
   return chunk.chunk >= 0 && chunk.chunk < chunk.chunks;
@@ -195,7 +194,7 @@ std::optional<BearingSet> decode_features(Bytes data) {
   return set;
 }
 
-/// The values stay as they are: whoever compares them wants every bit.
+/// The values are not normalised, because they may be compared bit for bit.
 std::optional<pose_cov_t> decode_pose(Bytes data) {
   if (data.size() != empty_size<pose_cov_t>()) return std::nullopt;
   return decode_checked<pose_cov_t>(data);

@@ -1,9 +1,9 @@
 #pragma once
-// Samples to LCM messages and back.
+// Samples as LCM messages, and back.
 //
-// The decoding functions take bytes from anywhere: they check fingerprint, lengths and counts before the generated
-// code sees them (it would throw, or allocate whatever a length claims), and refuse values that cannot be true
-// (plausible.hpp). Stamps are the messages' utime, microsecond for microsecond.
+// The decoding functions accept bytes from any origin. They check fingerprint, lengths and counts before the generated
+// code reads them, because that code would throw, or allocate any claimed length. They refuse implausible values
+// (plausible.hpp). Stamps are the messages' utime, exact to the microsecond.
 //
 // Thread contract: reentrant.
 
@@ -31,22 +31,22 @@
 namespace azimuth {
 
 odometry_t to_message(const OdometryReading& reading);
-/// Whether bearings_t can say all of the set: no kinds, no noise of their own, no looks, no trouble. Such sets go out
-/// as bearings_t, others as features_t.
+/// True: bearings_t can represent the whole set, which has no kinds, no noise of its own, no descriptors and no
+/// trouble. Such sets are sent as bearings_t, others as features_t.
 bool is_plain(const BearingSet& set);
-/// Only of a plain set; of any other it leaves out what is not plain.
+/// The message of a plain set. Of any other set, only the plain data are written.
 bearings_t to_message(const BearingSet& set);
-/// Of any set of at most features_t::MAX_FEATURES.
+/// The message of any set of at most features_t::MAX_FEATURES bearings.
 features_t to_features_message(const BearingSet& set);
 odometry_t to_message(const TruthPose& truth, std::int64_t sequence);
 document_t to_message(std::string_view name, std::string_view text, Stamp stamp);
-// The same, reusing the storage of `message`.
+// Like to_message(), but reuses the storage of `message`.
 void fill_message(const BearingSet& set, bearings_t& message);
 void fill_message(const BearingSet& set, features_t& message);
-/// The true map, in pieces of at most map_chunk_t::MAX_LANDMARKS; kinds are left out.
+/// The true map in pieces of at most map_chunk_t::MAX_LANDMARKS; kinds are left out.
 std::vector<map_chunk_t> to_messages(std::span<const TrueLandmark> landmarks, Stamp stamp);
 
-// Nothing when the bytes are not a sound message of the type.
+// None when the bytes are not a valid message of the type.
 std::optional<OdometryReading> decode_odometry(Bytes data);
 std::optional<BearingSet> decode_bearings(Bytes data);
 std::optional<BearingSet> decode_features(Bytes data);
@@ -61,7 +61,7 @@ std::optional<expectations_t> decode_expectations(Bytes data);
 std::optional<kept_t> decode_kept(Bytes data);
 std::optional<document_t> decode_document(Bytes data);
 
-/// Landmarks of a piece of the true map.
+/// The landmarks in a piece of the true map.
 std::vector<TrueLandmark> true_landmarks(const map_chunk_t& chunk);
 
 /// Encodes `message` into `out`, reusing its storage.

@@ -1,4 +1,4 @@
-// Messages of what we know; messages.cpp has the way back.
+// Messages made from samples; messages.cpp decodes them.
 
 #include <algorithm>
 #include <cassert>

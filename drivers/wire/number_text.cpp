@@ -22,7 +22,7 @@ std::optional<Number> parse(std::string_view text) {
 
 template <class Number>
 void append(std::string& out, Number value) {
-  std::array<char, 32> digits;  // the longest shortest double has 24 characters
+  std::array<char, 32> digits;  // the longest double in shortest form has 24 characters
   const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), value);
   out.append(digits.data(), end);
 }
@@ -47,7 +47,7 @@ std::optional<std::int64_t> parse_whole_seconds(std::string_view digits) {
   return seconds;
 }
 
-/// Of the digits after the point; up to a whole second.
+/// Microseconds from the digits after the point, rounded; up to a whole second.
 std::int64_t rounded_microseconds(std::string_view decimals) {
   std::int64_t microseconds = 0;
   for (std::size_t i = 0; i < 6; ++i) {
@@ -84,7 +84,7 @@ void append_seconds(std::string& out, Stamp stamp) {
   if (microseconds < 0) out += '-';
   const std::int64_t magnitude = std::abs(microseconds);
   append_integer(out, magnitude / kMicrosecondsPerSecond);
-  // A leading one keeps the zeros, and gives its place to the point.
+  // A leading 1 keeps the zeros of the fraction, and is then replaced by the point.
   const std::size_t point = out.size();
   append_integer(out, kMicrosecondsPerSecond + magnitude % kMicrosecondsPerSecond);
   out[point] = '.';

@@ -1,6 +1,6 @@
 #pragma once
-// Bounds beyond which a value is an error of its source, not a measurement. Wide: they keep arithmetic sound and catch
-// degrees or millimetres taken for radians and metres, no more.
+// Bounds beyond which a value is an error of its source and not a measurement. They are wide: they keep arithmetic
+// safe, and catch degrees or millimetres mistaken for radians and metres.
 
 #include <cmath>
 #include <cstdint>
@@ -12,14 +12,14 @@
 
 namespace azimuth {
 
-inline constexpr std::int64_t kMaxStamp_us = 4'000'000'000'000'000'000;  ///< two stamps' difference still fits
+inline constexpr std::int64_t kMaxStamp_us = 4'000'000'000'000'000'000;  ///< the difference of two stamps still fits
 inline constexpr double kMaxCoordinate_m = 1e7;
 inline constexpr double kMaxHeading_rad = 1e6;        ///< odometers may count turns
 inline constexpr double kMaxAzimuth_rad = 2.0 * kPi;  ///< [-pi, pi) and [0, 2 pi) are both in use
 inline constexpr double kMaxRadius_px = 1e6;
 inline constexpr double kMaxElevation_rad = 0.5 * kPi;
 
-// False for NaN.
+// All functions return false for NaN.
 inline bool is_plausible_stamp(std::int64_t stamp_us) { return stamp_us >= -kMaxStamp_us && stamp_us <= kMaxStamp_us; }
 inline bool is_plausible_coordinate(double value_m) { return std::abs(value_m) <= kMaxCoordinate_m; }
 inline bool is_plausible_heading(double heading_rad) { return std::abs(heading_rad) <= kMaxHeading_rad; }
@@ -29,8 +29,8 @@ inline bool is_plausible_sigma(double sigma) { return sigma >= 0.0 && sigma <= k
 inline bool is_plausible_kind(std::int64_t kind) {
   return kind >= kAnyKind && kind <= std::numeric_limits<Kind>::max();
 }
-// What a program sent may be in degrees. Such angles get through, not brought into [-pi, pi), so that the estimator's
-// stage can say so (SampleWatch); it uses none of them.
+// A program may send angles in degrees. Such angles are accepted and not wrapped into [-pi, pi), so that the
+// estimator's stage can report them (SampleWatch). The stage does not use them.
 inline constexpr double kMaxAngle_degrees = 360.0;
 inline bool is_angle_or_degrees(double angle) { return std::abs(angle) <= kMaxAngle_degrees; }
 inline bool is_plausible_bearing_sigma(double sigma_rad) { return sigma_rad > 0.0 && sigma_rad <= kPi; }

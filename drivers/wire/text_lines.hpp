@@ -1,5 +1,5 @@
 #pragma once
-// Tables as text: their lines, and what may be quoted of them.
+// Lines of text tables, and quotations from them.
 
 #include <algorithm>
 #include <cstddef>
@@ -10,14 +10,14 @@
 
 namespace azimuth {
 
-/// What some editors put before the text of a file in UTF-8 is no text.
+/// Removes the byte order mark that some editors put before UTF-8 text.
 inline std::string_view without_byte_order_mark(std::string_view text) {
   constexpr std::string_view kMark = "\xEF\xBB\xBF";
   if (text.starts_with(kMark)) text.remove_prefix(kMark.size());
   return text;
 }
 
-/// Takes the first line off the front of `text`, which holds one, without its end: LF or CR LF.
+/// Removes the first line from `text`, which must hold one, and returns it without its end (LF or CR LF).
 inline std::string_view take_line(std::string_view& text) {
   const std::size_t length = std::min(text.find('\n'), text.size());
   std::string_view line = text.substr(0, length);
@@ -26,7 +26,7 @@ inline std::string_view take_line(std::string_view& text) {
   return line;
 }
 
-/// As it may be shown on a terminal, and cut short.
+/// The text in a form safe for a terminal, shortened to 40 bytes.
 inline std::string printable(std::string_view text) {
   constexpr std::size_t kMostBytes = 40;
   std::size_t size = std::min(text.size(), kMostBytes);

@@ -1,5 +1,5 @@
 #pragma once
-// What is known of a run's truth; only for evaluation.
+// The truth of a run; only for evaluation.
 
 #include <limits>
 #include <string>
@@ -10,20 +10,20 @@
 
 namespace azimuth {
 
-/// Where the robot really was.
+/// The true pose of the robot.
 struct TruthPose {
   Stamp stamp{};
   Pose2 T_world_body;
   friend bool operator==(const TruthPose&, const TruthPose&) = default;
 };
 
-/// Where a landmark really is, in the world frame.
+/// The true position of a landmark in the world frame.
 struct TrueLandmark {
   Identity identity = kUnknownIdentity;
   double x_m = 0.0;
   double y_m = 0.0;
-  double z_m = std::numeric_limits<double>::quiet_NaN();  ///< NaN: not given
-  std::string kind;                                       ///< "lamp", a colour; empty: not given
+  double z_m = std::numeric_limits<double>::quiet_NaN();  ///< NaN: unknown
+  std::string kind;                                       ///< "lamp", or a colour; empty: unknown
 };
 
 }  // namespace azimuth

@@ -1,4 +1,4 @@
-"""Completion for bash: a function that needs nothing but bash itself, and tables of words that it looks into."""
+"""Completion for bash: a function that only needs bash, with tables of words."""
 
 TEMPLATE = r'''# bash completion for @NAME@                                   -*- shell-script -*-
 # Made from the program's own parser.
@@ -99,7 +99,7 @@ def case(pattern, words):
 
 
 def script(program, keys):
-    """`keys`: (full name, choices) of each setting."""
+    """The completion script of a program. `keys` has (full name, choices) of each setting."""
     words, values = [], []
     for command in program.everything():
         path = " ".join(command.path)

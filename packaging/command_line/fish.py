@@ -1,4 +1,4 @@
-"""Completion for fish: a line for each command and option."""
+"""Completion for fish: one line for each command and option."""
 
 import re
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes manual pages and completions from what the programs say of themselves.
+"""Makes manual pages and completions from the help of the programs.
 
 usage: make.py OUT TREE AZIMUTH AZIMUTHD AZIMUTH_SIM [EMULATOR [ARGUMENT...]]
   OUT is emptied; in it: man/, bash-completion/, zsh/, fish/. EMULATOR runs programs that were built for another processor.
@@ -23,34 +23,34 @@ SETTINGS = [("azimuth.toml", 5), ("rig.toml", 5)]
 
 
 def date_of(tree):
-    """That of the package: the same tree gives the same pages on any day."""
+    """The date of the package, so that a tree gives the same pages on any day."""
     signed = re.findall(r"^ -- .*>  (.*)$", (tree / "packaging/debian/changelog").read_text(), flags=re.M)[0]
     day = parsedate_to_datetime(signed)
     return f"{day:%B} {day.day}, {day.year}"
 
 
 def supplement(tree, name):
-    """What no parser knows: examples above all."""
-    file = tree / "man" / f"{name}.mdoc"
+    """The handwritten sections of a page, mainly examples."""
+    file = tree / "packaging/man" / f"{name}.mdoc"
     return file.read_text(encoding="utf-8") if file.exists() else ""
 
 
 def relatives(command, root):
-    """Pages of the commands above and below, and of the command's files."""
+    """The pages of the parent command, of the subcommands and of the command's files."""
     pages = [(manual.page_name(command.path[:depth]), 1) for depth in range(1, len(command.path))]
     pages += [(manual.page_name(each.path), 1) for each in command.commands]
     return pages + (HAND_WRITTEN + SETTINGS if command is root else SETTINGS)
 
 
 def manual_pages(tree, azimuth, configuration, rig):
-    """The pages, by name and section."""
+    """The texts of the pages, keyed by name and section."""
     date, pages = date_of(tree), {}
     for command in azimuth.everything():
         name = manual.page_name(command.path)
         pages[name, 1] = manual.command_page(command, date, supplement(tree, name), relatives(command, azimuth))
     for name, tables, summary in (("azimuth.toml", configuration, "configuration of azimuthd and azimuth"),
                                   ("rig.toml", rig, "what is fixed on a robot that Azimuth runs on")):
-        others = [("azimuth", 1), ("azimuth-settings", 1), ("azimuth-run", 5), *(page for page in SETTINGS if page[0] != name), ("azimuthd", 8)]
+        others = [("azimuth", 1), ("azimuth-run", 5), *(page for page in SETTINGS if page[0] != name), ("azimuthd", 8)]
         pages[name, 5] = manual.settings_page(name, date, summary, supplement(tree, name), tables, others)
     return pages
 
@@ -73,8 +73,8 @@ def completions(program, keys, out):
 
 def make(out, tree, azimuth, azimuthd, azimuth_sim):
     shutil.rmtree(out, ignore_errors=True)
-    configuration = programs.tables(programs.said(azimuthd, "--print-settings", "--all"))
-    rig = programs.tables(programs.said(azimuth, "settings", "--rig"))
+    configuration = programs.tables(programs.said(azimuthd, "--print-settings"))
+    rig = programs.tables(programs.said(azimuthd, "--print-rig-settings"))
     tool = programs.described(azimuth)
     for (name, section), text in manual_pages(tree, tool, configuration, rig).items():
         write(out / f"man/man{section}/{name}.{section}.gz", text, compressed=True)

@@ -1,4 +1,4 @@
-"""Manual pages: one for each command, one for each kind of file whose keys a program prints."""
+"""Makes manual pages: one for each command and one for each kind of file whose keys a program prints."""
 
 import re
 
@@ -47,7 +47,8 @@ def page_name(path):
 
 
 def command_page(command, date, supplement, others):
-    """`supplement`: sections in mdoc that no parser knows. `others`: (name, section) of pages to see also."""
+    """The page of a command. `supplement` is handwritten mdoc; `others` are (name, section) of the pages in SEE
+    ALSO."""
     title = page_name(command.path)
     text = mdoc.head(title, 1, date, first_sentence(command.about))
     text += ".Sh SYNOPSIS\n" + synopsis(command) + ".Sh DESCRIPTION\n" + mdoc.text(command.about.rstrip(".") + ".")
@@ -80,7 +81,7 @@ def key_text(key):
         words += f" One of {', '.join(key.choices)}."
     if key.limits:
         words += f" Allowed: {key.limits}."
-    return mdoc.text(words + (" For experts." if key.expert else ""))
+    return mdoc.text(words)
 
 
 def table_text(table):

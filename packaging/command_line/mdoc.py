@@ -1,10 +1,10 @@
-"""Text in the language of manual pages (mdoc)."""
+"""Writes text in mdoc, the language of manual pages."""
 
 import re
 
 
 def text(words):
-    """As lines of running text, a sentence a line."""
+    """Formats words as text lines, one sentence per line."""
     escaped = words.replace("\\", "\\e")
     escaped = re.sub(r"(?<![\w-])(--?)(?=[a-zA-Z])", lambda dashes: "\\-" * len(dashes[1]), escaped)
     lines = [line.strip() for line in re.sub(r"([.:;!?]) (?=[A-Z\[])", r"\1\n", escaped).splitlines()]
@@ -12,7 +12,7 @@ def text(words):
 
 
 def word(argument):
-    """One argument of a macro, never taken for another macro or for punctuation."""
+    """Escapes one argument of a macro, so that it is no other macro and no punctuation."""
     escaped = argument.replace("\\", "\\e").replace('"', "\\(dq")
     return f'"{escaped}"' if " " in escaped or not escaped else "\\&" + escaped
 
@@ -23,7 +23,7 @@ def head(title, section, date, about):
 
 
 def items(entries):
-    """A list of (macro line, text)."""
+    """Formats a list of (macro line, text)."""
     if not entries:
         return ""
     return ".Bl -tag -width Ds\n" + "".join(f".It {item}\n{about}" for item, about in entries) + ".El\n"

@@ -1,4 +1,4 @@
-"""What the programs say of themselves: their commands and options (--describe-command-line), and their settings."""
+"""Reads the commands and options of the programs (--describe-command-line) and their settings."""
 
 import json
 import re
@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 
 @dataclass
 class Option:
-    names: list         # with their dashes, the short one first; none of a positional
+    names: list         # with their dashes, the short one first; empty for a positional
     positional: str
-    value: str          # what it takes, in CLI11's words; empty: a flag
+    value: str          # type of the value as CLI11 names it; empty: a flag
     choices: list
     limits: str
     default: str
@@ -28,7 +28,7 @@ class Option:
 
 @dataclass
 class Command:
-    path: tuple         # ("azimuth", "map", "save")
+    path: tuple         # e.g. ("azimuth", "map", "save")
     about: str
     footer: str
     options: list
@@ -45,7 +45,7 @@ class Command:
         return [option for option in self.options if not option.names]
 
     def everything(self):
-        """This command and all below it."""
+        """This command and all its subcommands, recursively."""
         return [self, *(each for command in self.commands for each in command.everything())]
 
 
@@ -59,17 +59,16 @@ def command(described, above=()):
 class Key:
     name: str
     about: str
-    value: str = ""         # its default, in TOML's notation; empty: it has none
+    value: str = ""         # default in TOML notation; empty: no default
     choices: list = field(default_factory=list)
     limits: str = ""
-    expert: bool = False
 
 
 @dataclass
 class Table:
-    name: str               # as in the file: ekf, daemon.lcm; empty: the top
+    name: str               # as in the file, e.g. ekf, daemon.lcm; empty: the top level
     about: str
-    is_list: bool = False   # [[name]]
+    is_list: bool = False   # True for [[name]]
     keys: list = field(default_factory=list)
 
     def full_name(self, key):
@@ -82,8 +81,6 @@ LIMITS = re.compile(r" ([\[(]-?[\d.e+]+, -?[\d.e+]+\]|(?:>=|>|<=|<) -?[\d.e+]+)$
 
 def key_of(name, comment, value=""):
     key = Key(name, comment, value)
-    if key.about.startswith("(expert) "):
-        key.about, key.expert = key.about.removeprefix("(expert) "), True
     if found := CHOICES.search(key.about):
         key.about, key.choices = key.about[:found.start()], found[1].split(" | ")
     elif found := LIMITS.search(key.about):
@@ -92,7 +89,7 @@ def key_of(name, comment, value=""):
 
 
 def tables(reference):
-    """The settings as a program prints them, every key with its comment above it."""
+    """Parses the printed settings, in which the comment of each key stands above it."""
     found, comment, about_is_next = [], "", False
     for line in reference.splitlines():
         if header := re.fullmatch(r"\[([\w.]+)\]", line):
@@ -116,11 +113,11 @@ def add(found, key):
     if not found:
         found.append(Table("", ""))
     table = found[-1]
-    if all(other.name != key.name for other in table.keys):  # of a list, the first element tells all
+    if all(other.name != key.name for other in table.keys):  # the first element of a list has all keys
         table.keys.append(key)
 
 
-emulator = []  # what runs the programs: nothing, or a command and its arguments
+emulator = []  # command that runs the programs; empty: they run directly
 
 
 def said(program, *arguments):

@@ -1,4 +1,4 @@
-"""Completion for zsh: a function for each command, by _arguments."""
+"""Completion for zsh: one function for each command, with _arguments."""
 
 import re
 
@@ -8,7 +8,7 @@ def quoted(words):
 
 
 def explained(about):
-    """The first clause, without what _arguments would read."""
+    """The first clause of a description; escapes the characters that _arguments interprets."""
     return re.sub(r"([\[\]:\\])", r"\\\1", re.split(r"[;.] |\.$", about)[0])
 
 

@@ -1,8 +1,8 @@
-"""What a build tree compiles of our sources, one a line, largest first.
+"""Prints the files that a build tree compiles from the wanted sources, one per line, largest first.
 
 usage: compiled_sources.py BUILD WANTED
-WANTED lists sources, relative to the working directory. A unit that the build made (cmake/AzimuthTarget.cmake) counts
-when one of the sources that it includes is wanted.
+WANTED is a file with a list of sources, relative to the working directory. A generated unit (cmake/AzimuthTarget.cmake)
+is printed if it includes a wanted source.
 """
 import json
 import os
@@ -11,7 +11,7 @@ import sys
 
 
 def parts_of(file, build):
-    """The sources that are compiled with this file, as they are named from the working directory."""
+    """The sources that are compiled with this file, relative to the working directory."""
     name = os.path.relpath(file)
     if not name.startswith(os.path.relpath(build) + os.sep):
         return [name]

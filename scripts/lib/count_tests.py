@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Counts the cases of ctest's JUnit files, names what failed, with the end of what it said, and what was skipped, and why.
+"""Counts the cases in JUnit files of ctest. Prints failed cases with the end of their output, and skipped ones with the
+reason.
 
 usage: count_tests.py [--say LINE] FILE...    last line: `N passed, N failed, N skipped`, before it what else is to be said;
                                               exit code 1 when one failed or none ran
@@ -10,14 +11,15 @@ import re
 import sys
 import xml.etree.ElementTree as ElementTree
 
-# As GoogleTest, our scripts that start tests, and our tests in Python say why they skip.
+# The reasons of skipped tests as GoogleTest, the scripts that start tests and the Python tests print them.
 REASON = re.compile(r"(?:: Skipped\n|^SKIPPED: |^skipped: )(.*)", re.MULTILINE)
 
-LAST_LINES = 20     # of what a failed one said
+LAST_LINES = 20     # of the output of a failed case
 
 
 def outcome(case):
-    """ctest writes run, fail, notrun or disabled; a skipped case is `notrun` with a <skipped> child."""
+    """The outcome of a case. ctest writes run, fail, notrun or disabled; a skipped case is `notrun` with a <skipped>
+    child."""
     if case.find("skipped") is not None or case.get("status") == "disabled":
         return "skipped"
     return "passed" if case.get("status") == "run" and case.find("failure") is None else "failed"

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Films a page of `azimuth view` in a browser without a window, as an animated WebP. See scripts/film."""
+"""Films a page of `azimuth view` in a headless browser as an animated WebP, see scripts/film."""
 
 import argparse
 import base64
@@ -19,7 +19,7 @@ def picture(browser, quality):
 
 
 def chunks(webp):
-    """[(name, bytes)] of a RIFF file."""
+    """Splits a RIFF file into [(name, bytes)]."""
     at, end = 12, 8 + struct.unpack("<I", webp[4:8])[0]
     while at + 8 <= end:
         size = struct.unpack("<I", webp[at + 4:at + 8])[0]
@@ -36,7 +36,7 @@ def three(number):
 
 
 def animated(pictures, width, height, frame_ms, last_ms):
-    """One after the other, for ever; the last one stays for a while."""
+    """Makes an endless animation of the pictures; the last one stays longer."""
     frames = []
     for i, webp in enumerate(pictures):
         image = b"".join(chunk(name, body) for name, body in chunks(webp) if name in (b"ALPH", b"VP8 ", b"VP8L"))

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes a site of the tree's documents: a README becomes index.html, every other one lies where its Markdown lies.
+"""Builds a site of the documents of a tree: a README becomes index.html, and every other page has the path of its Markdown file.
 
 usage: html_pages.py TREE OUT      needs mkdocs-material (scripts/setup --docs)
 """
@@ -28,17 +28,17 @@ LIST_ITEM = re.compile(r"(?:[-*]|\d+\.) ")
 
 
 def documents(tree):
-    """The documents, as paths in the tree."""
-    return [*PAGES, *sorted(path.relative_to(tree).as_posix() for path in (tree / "docs").glob("*.md"))]
+    """The paths of all documents in the tree."""
+    return [*PAGES, *sorted(path.relative_to(tree).as_posix() for path in (tree / "docs").rglob("*.md"))]
 
 
 def slug(heading, separator="-"):
-    """The name that links to a heading have, as GitHub gives it."""
+    """The anchor of a heading, as GitHub makes it."""
     return re.sub(r"[^\w\- ]", "", re.sub(r"<[^>]*>", "", heading).strip().lower()).replace(" ", separator)
 
 
 def slugs():
-    """A function that gives headings their names, each one once."""
+    """Returns a function that gives each heading a unique anchor."""
     seen = {}
 
     def once(heading):
@@ -54,7 +54,7 @@ def is_local(target):
 
 
 def source_of(document):
-    """Where the Markdown of a document lies among the site's sources."""
+    """The path of a document in the sources of the site."""
     return re.sub(r"README\.md$", "index.md", document)
 
 
@@ -69,7 +69,7 @@ def normalised(path):
 
 
 def outside_code(text, change):
-    """The text with all that is no code changed."""
+    """Applies `change` to all parts of the text that are not code."""
     made, end = "", 0
     for found in CODE.finditer(text):
         made += change(text[end:found.start()]) + found[0]
@@ -78,7 +78,7 @@ def outside_code(text, change):
 
 
 def with_links(text, document, known):
-    """Links lead to where the sources lie. Also: what else of the tree is linked to, as paths."""
+    """Rewrites links to the paths of the site's sources. Also returns the linked paths of other files in the tree."""
     folder, others = Path(document).parent, set()
 
     def link(found):
@@ -94,7 +94,8 @@ def with_links(text, document, known):
 
 
 def as_python_markdown_reads_it(text):
-    """GitHub begins a list below a line of text, and takes \\| in the code of a table for a bar."""
+    """Adapts Markdown: unlike GitHub, Python-Markdown needs an empty line before a list and keeps \\| in code in a
+    table."""
     lines, in_code = [], False
     for line in text.split("\n"):
         in_code ^= line.startswith("```")
@@ -109,7 +110,7 @@ def as_python_markdown_reads_it(text):
 
 
 def paragraph(lines):
-    """The last lines up to an empty one."""
+    """The lines after the last empty line."""
     for line in reversed(lines):
         if not line:
             return
@@ -125,7 +126,7 @@ def copy(tree, path, out):
 
 
 def gather(tree, sources):
-    """All that the site is made of, in one folder."""
+    """Collects all sources of the site in one folder."""
     known, others = documents(tree), set()
     for document in known:
         text, linked = with_links((tree / document).read_text(encoding="utf-8"), document, known)
@@ -138,14 +139,14 @@ def gather(tree, sources):
 
 
 def whole_navigation(settings, tree):
-    """The settings, whose nav comes last, with the documents that it does not name yet."""
+    """Appends the documents that the navigation lacks to the settings, in which `nav` comes last."""
     named = set(re.findall(r"^ +- (?:[^:]*: )?(\S+\.md)$", settings, flags=re.M))
     rest = [source_of(document) for document in documents(tree) if source_of(document) not in named]
     return settings + ("".join(["  - More:\n", *(f"      - {each}\n" for each in rest)]) if rest else "")
 
 
 def make(tree, out):
-    """The pages, by their paths in the site. What mkdocs warns of is refused."""
+    """Builds the site and returns the paths of its pages. A warning of mkdocs is an error."""
     with tempfile.TemporaryDirectory() as folder:
         sources, settings = Path(folder) / "sources", Path(folder) / "mkdocs.yml"
         gather(tree, sources)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Lists what an LCM event log holds: messages, bytes and rate of each channel.
+"""Lists the number of messages, the bytes and the rate of each channel of an LCM event log.
 
-usage: log_channels.py FILE      exit code 1 when there is no message in it
+usage: log_channels.py FILE      exit code 1 if it has no message
 """
 
 import struct
@@ -13,7 +13,7 @@ HEADER = struct.Struct(">IqqII")  # sync, event number, utime, lengths of channe
 
 
 def events(log):
-    """(utime, channel, bytes of data) of each whole event, up to the first that is cut or damaged."""
+    """Yields (utime, channel, number of bytes) of each event, up to the first incomplete or damaged one."""
     at = 0
     while at + HEADER.size <= len(log):
         sync, _, utime, channel_bytes, data_bytes = HEADER.unpack_from(log, at)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Whether a message to a multicast group, sent with a time to live of 0, comes back to this machine.
+"""Tests whether a message to a multicast group with a time to live of 0 comes back to this machine.
 
 usage: multicast_comes_back.py GROUP PORT      exit code 0: it does, 1: it does not
 """
@@ -24,7 +24,7 @@ def comes_back(group, port):
         sender.sendto(word, (group, port))
         receiver.settimeout(PATIENCE_S)
         end = time.monotonic() + PATIENCE_S
-        while time.monotonic() < end:  # others may be talking there
+        while time.monotonic() < end:  # other programs may send to this group
             if receiver.recv(2048) == word:
                 return True
     return False
@@ -35,5 +35,5 @@ if __name__ == "__main__":
         sys.exit("usage: multicast_comes_back.py GROUP PORT")
     try:
         sys.exit(0 if comes_back(sys.argv[1], int(sys.argv[2])) else 1)
-    except OSError:  # no route, no such network, or nothing heard in time
+    except OSError:  # no route, no such network, or no message in time
         sys.exit(1)

@@ -1,15 +1,14 @@
 #!/usr/bin/env python3
-"""The tests labelled `statistics` or `nightly` take too long for every change. They are dealt into ten shares that take
-equally long, and each commit has its turn: ten commits in a row run them all.
+"""Divides the tests with the label `statistics` or `nightly`, which take too long for every change, into ten shares of
+equal length. Each commit runs one share, so that ten consecutive commits run all of them.
 
 usage: test_shares.py share BUILD [TURN]   TURN (0 to 9, default: the commit's), and those that ctest is to run, for its
                                            option -I; then, for people, which these are
        test_shares.py left-out BUILD       for people: what a run without them leaves out, and how to run it
        test_shares.py measured BUILD       writes the times of the last scripts/test into tests/seconds.txt
 
-Shares are made of tests/seconds.txt alone, so that they stay what they are from commit to commit; a test that is not in
-there yet has its share by its name, and a usual time.
-"""
+The shares depend only on tests/seconds.txt, so that they stay the same from commit to commit. A test without a time
+gets its share from its name, and counts with a typical time. """
 
 import json
 import subprocess
@@ -22,12 +21,12 @@ from pathlib import Path
 TREE = Path(__file__).resolve().parents[2]
 LONG = {"statistics", "nightly"}
 TURNS = 10
-USUAL_S = 20.0  # of a test that nobody has timed yet
-CORES = 2       # of the machine that times are told for
+USUAL_S = 20.0  # typical time of a test without a measured time
+CORES = 2       # of the machine for which times are printed
 
 
 def listed(build):
-    """The long tests that ctest knows, as (number, name): it numbers them in the order in which it lists them."""
+    """The long tests as (number, name). ctest numbers tests in the order of its list."""
     said = subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], capture_output=True, text=True, check=True)
     for number, test in enumerate(json.loads(said.stdout)["tests"], 1):
         labels = next((each["value"] for each in test.get("properties", []) if each["name"] == "LABELS"), [])
@@ -36,13 +35,13 @@ def listed(build):
 
 
 def seconds_by_name(file):
-    """Of lines `SECONDS NAME`."""
+    """Reads lines `SECONDS NAME` to a dictionary {name: seconds}."""
     lines = (line.split(maxsplit=1) for line in file.read_text(encoding="utf-8").splitlines() if not line.startswith("#"))
     return {name: float(seconds) for seconds, name in lines}
 
 
 def deal(seconds):
-    """A turn for each test: the longest first, each to where there is least so far."""
+    """Assigns a share to each test: the longest test first, each to the share with the smallest sum so far."""
     turns, filled = {}, [0.0] * TURNS
     for name in sorted(seconds, key=lambda name: (-seconds[name], name)):
         turn = filled.index(min(filled))
@@ -64,7 +63,7 @@ def git(tree, *arguments):
 
 
 def turn_of_commit(tree):
-    """By the number of commits before it; where there is no history to count, by the day."""
+    """The share of a commit: the number of earlier commits modulo ten, or the day if there is no history."""
     if git(tree, "rev-parse", "--is-shallow-repository") == "false" and (count := git(tree, "rev-list", "--count", "HEAD")):
         return int(count) % TURNS
     return int(time.time() / 86400) % TURNS
@@ -94,7 +93,7 @@ def left_out(build, seconds):
 
 
 def measured(build, file):
-    """What was not run keeps its time; what is no more goes."""
+    """Writes the measured times. Tests that did not run keep their times, and removed tests are dropped."""
     seconds = seconds_by_name(file)
     results = ElementTree.parse(Path(build) / "test-results.xml").getroot().iter("testcase")
     seconds |= {case.get("name"): float(case.get("time")) for case in results if case.get("status") == "run"}

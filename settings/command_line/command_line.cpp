@@ -13,13 +13,13 @@
 namespace azimuth {
 namespace {
 
-/// As it is called at the shell: "azimuth map".
+/// The name by which the shell calls the command: "azimuth map".
 std::string full_name(const CLI::App& app) {
   const CLI::App* const parent = app.get_parent();
   return parent ? full_name(*parent) + ' ' + app.get_name() : app.get_name();
 }
 
-/// With the dashes they are written with; hidden ones have no group.
+/// The names of all visible options, with their dashes. Hidden options have no group.
 std::vector<std::string> option_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options()) {
@@ -54,8 +54,8 @@ std::string unknown_command(const CLI::App& app, std::string_view word, const st
                      meant.empty() ? fmt::format("; there are {}", fmt::join(commands, ", ")) : meant);
 }
 
-/// Of the words that `app` itself did not expect. What follows an unknown command is that one's, and a word beside an
-/// unknown option its value.
+/// Sentences about the words that `app` itself did not expect. Words after an unknown command belong to that command,
+/// and a word beside an unknown option is its value; such words get no sentence.
 std::vector<std::string> unexpected_by(const CLI::App& app) {
   std::vector<std::string> words, options;
   for (const std::string& word : app.remaining()) (word.starts_with('-') ? options : words).push_back(word);
@@ -69,14 +69,14 @@ std::vector<std::string> unexpected_by(const CLI::App& app) {
   return said;
 }
 
-/// Whether the command line fails for a word nobody knows: where a command is wanted, "there is none" hides which one
-/// was meant.
+/// Whether the error may come from an unknown word. A mistyped command gives the error that a command is required,
+/// which would hide the unknown word.
 bool is_about_words(const CLI::ParseError& error) {
   const auto code = static_cast<CLI::ExitCodes>(error.get_exit_code());
   return code == CLI::ExitCodes::ExtrasError || code == CLI::ExitCodes::RequiredError;
 }
 
-/// In the library's words, which quote those of the command line.
+/// Prints the library's message, which quotes words of the command line.
 int say(const CLI::App& app, const CLI::ParseError& error) {
   std::ostringstream out, err;
   const int code = app.exit(error, out, err);
@@ -92,9 +92,9 @@ int answer(const CLI::App& app, const CLI::ParseError& error) {
   return kWrongUsage;
 }
 
-/// Before anything that is required is missed.
+/// Adds the hidden option kDescribe, which is answered before missing arguments are noticed.
 void add_describe_option(CLI::App& app) {
-  if (app.get_option_no_throw(kDescribe) != nullptr) return;  // read again
+  if (app.get_option_no_throw(kDescribe) != nullptr) return;  // the application is parsed again
   const auto describe = [&app] {
     fmt::print("{}", description(app));
     throw CLI::Success();

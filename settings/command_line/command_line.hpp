@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-/// What help, manual pages and completions call the value of an option that is a path.
+/// The name of a path value in help, manual pages and completions.
 template <>
 constexpr const char* CLI::detail::type_name<std::filesystem::path>() {
   return "PATH";
@@ -17,17 +17,17 @@ namespace azimuth {
 
 inline constexpr int kWrongUsage = 2;  ///< exit code
 
-/// The type name of an option that takes one of a few words and answers another one itself: help, manual pages and
-/// completions then know the words, as they do of CLI::IsMember.
+/// The type name of an option that takes one of a few words and checks the word itself. Like CLI::IsMember, it shows
+/// the words in help, manual pages and completions.
 std::string choices_text(const std::vector<std::string_view>& words);
 
-/// What is wrong with the words that `app` was given and did not expect, one sentence a line, with what was probably
-/// meant: of its options and commands and those of the subcommands that were recognised. Empty: it expected them all.
+/// Returns what is wrong with the unexpected words of the command line, one sentence per line, with a suggestion from
+/// the options and commands of `app` and of the recognised subcommands. Empty if no word is unexpected.
 std::string unexpected_words(const CLI::App& app);
 
-/// Reads the command line into `app`, and then calls `understand`, which may throw CLI::Error as well. What is asked
-/// for (help, version) and what is wrong is printed; nothing: neither. Else the exit code to end with: 0 or
-/// kWrongUsage.
+/// Parses the command line into `app`, and then calls `understand`, which may also throw CLI::ParseError. Prints help
+/// or version on request, and errors. Returns the exit code to end with, 0 or kWrongUsage, or nothing if the program
+/// goes on.
 std::optional<int> parse_command_line(CLI::App& app, int argc, const char* const* argv,
                                       const std::function<void()>& understand = {});
 

@@ -8,7 +8,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// CLI11 writes what an option takes as TYPE:CHECK:CHECK, one of a few words as {a,b}.
+/// The value of an option. CLI11 writes it as TYPE:CHECK:CHECK, with a choice of words as {a,b}.
 struct Value {
   std::string type;
   std::vector<std::string> choices;

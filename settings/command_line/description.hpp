@@ -7,8 +7,8 @@ namespace azimuth {
 /// The hidden option that prints description() and ends the program.
 inline constexpr const char* kDescribe = "--describe-command-line";
 
-/// What `app` and its commands take, as JSON: the source of manual pages (man/) and of the shells' completions
-/// (completion/). Options without a group are hidden and left out.
+/// Describes `app`, its commands and their options as JSON. Manual pages (packaging/man/) and the shells' completions
+/// (completion/) are made from the description. Options without a group are hidden and left out.
 ///
 /// A command is {name, about, footer, options, commands}, an option {names, positional, value, choices, limits,
 /// default, required, repeats, about}; `value` is empty for a flag.

@@ -24,7 +24,7 @@ void CameraLink::send(const SimulationOutput& output, const PacedClock& clock) {
 void CameraLink::take_image(const FrameInstant& instant, const PacedClock& clock) {
   if (busy()) return server_.skip_frame();
   pixels_ = server_.next_frame();
-  if (!busy()) return;  // nobody is there, or slow; the gap in the sequence tells
+  if (!busy()) return;  // There is no client, or it is slow; the gap in the sequence numbers shows this
   frame_stamp_ = clock.monotonic_stamp(instant.stamp);
   frames_->begin(instant.T_world_body);
 }

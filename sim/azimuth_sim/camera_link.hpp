@@ -11,7 +11,7 @@
 
 namespace azimuth::sim {
 
-/// Hands the simulated camera's bearings, and images if there is a source of them, to a client of the camera link.
+/// Sends the simulated camera's bearings, and images if there is a frame source, to a client of the camera link.
 ///
 /// Thread contract: thread-bound.
 class CameraLink {
@@ -20,11 +20,12 @@ class CameraLink {
   static FileResult<CameraLink> listen(const std::filesystem::path& path, std::unique_ptr<FrameSource> frames);
 
   int descriptor() const { return server_.descriptor(); }
-  /// Sees to the client, and goes on with the image that is being made.
+  /// Serves the client, and continues the image in progress.
   void turn();
-  /// An image is being made: turn() should come again at once.
+  /// Whether an image is in progress. If so, turn() should be called again at once.
   bool busy() const { return !pixels_.empty(); }
-  /// Images that fall due while another one is being made are skipped, as by a slow camera.
+  /// Sends the output of the simulation. Images that fall due while another one is in progress are skipped, as by a
+  /// slow camera.
   void send(const SimulationOutput& output, const PacedClock& clock);
   const CameraServerCounts& counts() const { return server_.counts(); }
 
@@ -36,8 +37,8 @@ class CameraLink {
   CameraServer server_;
   std::unique_ptr<FrameSource> frames_;
   BearingSet set_;
-  std::span<std::byte> pixels_;  // of the image being made
-  Stamp frame_stamp_{};          // and when it was taken, on CLOCK_MONOTONIC
+  std::span<std::byte> pixels_;  // Buffer of the image in progress
+  Stamp frame_stamp_{};          // Instant of that image, on CLOCK_MONOTONIC
 };
 
 }  // namespace azimuth::sim

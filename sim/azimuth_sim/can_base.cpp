@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::uint32_t kWheels = 0x181, kPower = 0x182;
 constexpr double kTicksPerM = 20000.0;
-constexpr std::uint64_t kPowerEvery = 25;  // cycles
+constexpr std::uint64_t kPowerEvery = 25;  // In cycles
 constexpr unsigned kEmergencyStop = 1U, kBumper = 2U;
 
 CanFrame frame_of(std::uint32_t id, std::uint8_t size) {
@@ -19,7 +19,7 @@ CanFrame frame_of(std::uint32_t id, std::uint8_t size) {
 
 std::uint8_t byte_of(std::int64_t number, int index) { return static_cast<std::uint8_t>(number >> (8 * index)); }
 
-/// 24 bits, the most significant byte first.
+/// Writes 24 bits, the most significant byte first.
 void put_ticks(double way_m, std::size_t at, CanFrame& frame) {
   const auto ticks = static_cast<std::int64_t>(std::floor(way_m * kTicksPerM));
   for (int i = 0; i < 3; ++i) frame.data.at(at + static_cast<std::size_t>(i)) = byte_of(ticks, 2 - i);

@@ -13,32 +13,32 @@ namespace azimuth::sim {
 
 inline constexpr Duration kCanCycle = std::chrono::milliseconds(20);
 
-/// What the base tells with each cycle.
+/// The state that the base reports in each cycle.
 struct CanBaseReport {
-  WheelMotion rolled;  ///< since the start
+  WheelMotion rolled;  ///< Motion of the wheels since the start
   bool emergency_stop = false, bumper = false;
   double battery_v = 0.0;
 };
 
-/// Makes the frames that config/simulated-can.dbc describes.
+/// Makes the CAN frames that config/simulated-can.dbc describes.
 ///
 /// Thread contract: thread-bound.
 class CanBase {
  public:
   /// Appends the frames of the next cycle.
   void report(const CanBaseReport& report, std::vector<CanFrame>& frames);
-  /// The base restarts: its counters begin at zero.
+  /// Restarts the base: its counters begin at zero again.
   void restart(const WheelMotion& rolled);
 
  private:
   double left_zero_m_ = kStart_m, right_zero_m_ = kStart_m;
   std::uint64_t cycles_ = 0;
 
-  // The counters start two metres before their wrap.
+  // The counters start two metres before their overflow, so that it occurs soon.
   static constexpr double kStart_m = 2.0 - 8388608.0 / 20000.0;
 };
 
-/// The frames for a person: ids, bytes, units and rates.
+/// Human-readable description of the frames: ids, bytes, units and rates.
 std::string can_base_help();
 
 }  // namespace azimuth::sim

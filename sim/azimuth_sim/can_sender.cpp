@@ -24,7 +24,7 @@ FileResult<void> CanSender::open() {
   retry_at_ = std::chrono::steady_clock::now() + kRetry;
   UniqueFd fd(::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW));
   if (!fd) return failure(error(interface_, errno));
-  ::setsockopt(fd.get(), SOL_CAN_RAW, CAN_RAW_FILTER, nullptr, 0);  // it only sends
+  ::setsockopt(fd.get(), SOL_CAN_RAW, CAN_RAW_FILTER, nullptr, 0);  // The socket only sends
   const unsigned index = ::if_nametoindex(interface_.c_str());
   if (index == 0) return failure(error(interface_, errno));
   sockaddr_can address{};

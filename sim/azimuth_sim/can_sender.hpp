@@ -10,8 +10,8 @@
 
 namespace azimuth::sim {
 
-/// Sends frames to a CAN interface. Those that it does not take are lost, as on a bus; an interface that is gone is
-/// looked for by its name from time to time.
+/// Sends frames to a CAN interface. Frames that the interface does not accept are lost, as on a bus. If the interface
+/// disappears, the sender tries from time to time to open it again by its name.
 ///
 /// Thread contract: thread-bound; never blocks.
 class CanSender {

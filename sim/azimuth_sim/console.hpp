@@ -6,18 +6,18 @@
 
 namespace azimuth::sim {
 
-/// How things are, as `status` answers: one line.
+/// The status of the simulation in one line, as the answer to `status`.
 std::string status_text(Simulation& simulation, Stamp now);
 
-/// Commands to a running simulator: faults by name, `status`, `help`, `quit`.
+/// Executes commands to a running simulator: faults by name, `status`, `help`, `quit`.
 ///
 /// Thread contract: thread-bound.
 class Console {
  public:
-  /// `simulation` outlives this.
+  /// `simulation` must outlive this object.
   explicit Console(Simulation& simulation) : simulation_(simulation) {}
 
-  /// Obeys one line; the answer, ending in a newline. An empty line is a question for nothing.
+  /// Executes one line and returns the answer, which ends in a newline. The answer to an empty line is empty.
   std::string obey(std::string_view line, Stamp now);
   bool wants_to_quit() const { return quit_; }
 

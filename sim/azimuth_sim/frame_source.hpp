@@ -8,16 +8,17 @@
 
 namespace azimuth::sim {
 
-/// Where the simulated camera's images come from. Each is made in short steps, since the robot's serial line must not
-/// wait for an image.
+/// Source of the simulated camera's images. Each image is made in short steps, so that the robot's serial line need not
+/// wait for it.
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
   virtual FrameFormat format() const = 0;
   virtual Duration period() const = 0;
-  /// Begins with what the robot's camera sees from `T_world_body`.
+  /// Begins the image that the robot's camera sees from `T_world_body`.
   virtual void begin(const Pose2& T_world_body) = 0;
-  /// Goes on for about a millisecond, into the same uncompressed frame of format() each time; true when it is whole.
+  /// Continues for about a millisecond; returns true when the image is complete. `pixels` must be the same uncompressed
+  /// frame of format() in all steps of an image.
   virtual bool step(std::span<std::byte> pixels) = 0;
 };
 

@@ -55,7 +55,7 @@ LineInput::~LineInput() {
 }
 
 void LineInput::open_standard_input() {
-  ::signal(SIGTTIN, SIG_IGN);  // in the background of a terminal reading fails, instead of stopping the robot
+  ::signal(SIGTTIN, SIG_IGN);  // In the background of a terminal, reading then fails instead of stopping the process
   standard_input_open_ = true;
 }
 
@@ -99,7 +99,7 @@ void LineInput::accept_client() {
   if (fd) clients_.push_back({std::move(fd), {}});
 }
 
-/// False when the client is gone.
+/// Returns false if the client is gone.
 bool LineInput::serve(Client& client) {
   const bool open = client.reader.read(client.fd.get());
   while (const auto line = client.reader.next()) {

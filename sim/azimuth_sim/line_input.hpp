@@ -1,5 +1,5 @@
 #pragma once
-// Commands from people and scripts: lines from standard input and from clients of a socket.
+// Command lines from standard input and from clients of a socket.
 
 #include <filesystem>
 #include <functional>
@@ -13,19 +13,19 @@
 
 namespace azimuth::sim {
 
-/// Cuts what is read from a descriptor into lines.
+/// Splits the data read from a descriptor into lines.
 class LineReader {
  public:
-  /// Takes what is there, at most one read(). False: no more will come, or the line is absurdly long.
+  /// Reads what is available, with one read() at most. Returns false at the end of input or if a line is too long.
   bool read(int fd);
-  /// The next whole line, without its end.
+  /// Returns the next complete line, without its line end.
   std::optional<std::string> next();
 
  private:
   std::string text_;
 };
 
-/// Answers each line with whatever the handler returns.
+/// Answers each line with the text that the handler returns.
 ///
 /// Thread contract: thread-bound.
 class LineInput {
@@ -37,13 +37,13 @@ class LineInput {
   LineInput(const LineInput&) = delete;
   LineInput& operator=(const LineInput&) = delete;
 
-  /// Standard input; answers go to standard output.
+  /// Reads standard input; answers go to standard output.
   void open_standard_input();
-  /// A socket others connect to; a stale one is replaced.
+  /// Opens a socket for clients; a stale socket file is replaced.
   [[nodiscard]] FileResult<void> open_socket(const std::filesystem::path& path);
 
   void watch(std::vector<pollfd>& watched) const;
-  /// `watched` as poll() left it.
+  /// `watched` must be as poll() left it.
   void turn(const std::vector<pollfd>& watched);
 
  private:

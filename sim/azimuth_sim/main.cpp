@@ -1,4 +1,4 @@
-// azimuth-sim: a robot to connect to, without a robot.
+// azimuth-sim: a simulated robot to connect to.
 
 #include <cstdio>
 #include <exception>

@@ -11,7 +11,7 @@
 namespace azimuth::sim {
 namespace {
 
-/// What CLI11 fills in, before it is understood.
+/// The raw values that CLI11 fills in, before conversion.
 struct Words {
   std::string scenario = "lab", subclass = "p3dx-sh", tcp, images, image_format = "rgb8";
   double image_rate_hz = 15.0, image_scale = 1.0, image_noise = 1.5;
@@ -28,7 +28,7 @@ std::string known_scenarios() {
   return names;
 }
 
-/// The parsed value, or CLI11's way out.
+/// The parsed value; throws CLI11's validation error if there is none.
 template <class Value>
 Value or_refuse(tl::expected<Value, std::string> parsed, const char* option) {
   if (!parsed) throw CLI::ValidationError(option, parsed.error());
@@ -43,57 +43,59 @@ void add_robot_options(CLI::App& app, Options& options, Words& words) {
                  "Report as a base on the bus of this CAN interface, beside the serial line or instead of it");
   app.add_option("--baud", words.baud, "Baud rate after power-up: 9600, 19200, 38400, 57600 or 115200")
       ->capture_default_str();
-  app.add_flag("--keep-baud", words.keep_baud, "A controller that does not fall back to that rate by itself");
+  app.add_flag("--keep-baud", words.keep_baud,
+               "Simulate a controller that does not fall back by itself to the baud rate after power-up");
   app.add_option("--subclass", words.subclass, "Kind of robot: " + known_subclasses())->capture_default_str();
   app.add_flag("--gyro", words.gyro, "The robot has an analog gyro");
 }
 
 void add_drive_options(CLI::App& app, Options& options, Words& words) {
   auto* const stand =
-      app.add_flag("--stand-still", words.stand, "Stand where no client drives, instead of following a path by itself");
-  app.add_option("--laps", words.laps, "Times round; 0: as the world has it")
+      app.add_flag("--stand-still", words.stand, "Stand still where no client drives, instead of following a path");
+  app.add_option("--laps", words.laps, "Number of laps; 0: as many as the world says")
       ->check(CLI::Range(0, 10000))
       ->excludes(stand);
-  app.add_flag("--end-at-arrival", options.end_at_arrival, "End when the robot has come to the end of its path")
+  app.add_flag("--end-at-arrival", options.end_at_arrival, "End when the robot reaches the end of its path")
       ->excludes(stand);
 }
 
 void add_world_options(CLI::App& app, Options& options, Words& words) {
-  app.add_option("--scenario", words.scenario, "Which world")
+  app.add_option("--scenario", words.scenario, "World to simulate")
       ->type_name(choices_text({kScenarioNames.begin(), kScenarioNames.end()}))
       ->capture_default_str();
-  app.add_option("--seed", words.seed, "Of world, noise and faults")->capture_default_str();
-  app.add_flag("--no-identities", words.no_identities, "Bearings do not say which landmark they are of");
-  app.add_option("--clutter", words.clutter_per_set, "Mean number of false bearings a set")
+  app.add_option("--seed", words.seed, "Seed of the world, the noise and the faults")->capture_default_str();
+  app.add_flag("--no-identities", words.no_identities, "Send bearings without the identities of their landmarks");
+  app.add_option("--clutter", words.clutter_per_set, "Mean number of false bearings per set")
       ->check(CLI::Range(0.0, 100.0));
-  app.add_option("--speed", options.speed, "Times real time")->check(CLI::Range(0.01, 100.0));
-  app.add_option("--duration", options.duration_s, "End after so many simulated seconds; 0: when told to")
+  app.add_option("--speed", options.speed, "Speed, as a multiple of real time")->check(CLI::Range(0.01, 100.0));
+  app.add_option("--duration", options.duration_s, "End after this many simulated seconds; 0: end only when told to")
       ->check(CLI::Range(0.0, 1e7));
 }
 
 void add_output_options(CLI::App& app, Options& options) {
-  app.add_option("--camera-socket", options.camera_socket, "Hand the camera's samples over at this unix socket");
-  app.add_option("--truth", options.files.truth, "Write where the robot really is (CSV)");
-  app.add_option("--sip-log", options.files.sip_log, "Write when the odometry of each SIP really was (CSV)");
+  app.add_option("--camera-socket", options.camera_socket, "Serve the camera's samples at this unix socket");
+  app.add_option("--truth", options.files.truth, "Write the robot's true poses (CSV)");
+  app.add_option("--sip-log", options.files.sip_log, "Write the true time of each SIP's odometry (CSV)");
   app.add_option("--run-folder", options.files.run_folder,
-                 "Write a run folder: rig, landmarks and truth, and what ideal devices would have recorded");
+                 "Write a run folder: rig, landmarks, truth, and the samples that ideal devices would have recorded");
   app.add_option("--control", options.control_socket, "Take commands at this unix socket, too");
-  app.add_flag("-q,--quiet", options.quiet, "Say nothing but errors");
-  app.add_flag("-v,--verbose", options.verbose, "Tell every ten seconds how things are");
+  app.add_flag("-q,--quiet", options.quiet, "Print nothing but errors");
+  app.add_flag("-v,--verbose", options.verbose, "Print a status every ten seconds");
 }
 
 void add_image_options(CLI::App& app, Words& words) {
   auto* const images =
-      app.add_option("--images", words.images, "Send rendered images, too, of a camera with this lens");
+      app.add_option("--images", words.images, "Send rendered images, too, from a camera with this lens");
   images->check(CLI::IsMember({"mirror", "fisheye"}))->needs("--camera-socket");
-  app.add_option("--image-rate", words.image_rate_hz, "Images a second")->check(CLI::Range(0.1, 60.0))->needs(images);
-  app.add_option("--image-scale", words.image_scale, "Times the sides of 1024 x 768 pixels")
+  app.add_option("--image-rate", words.image_rate_hz, "Images per second")->check(CLI::Range(0.1, 60.0))->needs(images);
+  app.add_option("--image-scale", words.image_scale,
+                 "Size of the images: the sides, as a multiple of 1024 x 768 pixels")
       ->check(CLI::Range(0.125, 1.0))
       ->needs(images);
-  app.add_option("--image-format", words.image_format, "Of their pixels")
+  app.add_option("--image-format", words.image_format, "Pixel format of the images")
       ->check(CLI::IsMember({"gray8", "rgb8", "bgr8", "yuyv", "uyvy"}))
       ->needs(images);
-  app.add_option("--image-noise", words.image_noise, "Standard deviation of their samples, of 256 steps")
+  app.add_option("--image-noise", words.image_noise, "Standard deviation of the noise in the images, of 256 steps")
       ->check(CLI::Range(0.0, 50.0))
       ->needs(images);
 }
@@ -102,15 +104,16 @@ void add_fault_options(CLI::App& app, Words& words) {
   const auto add = [&app](const char* name, std::vector<std::string>& texts, const char* help) {
     return app.add_option(name, texts, help)->take_all()->allow_extra_args(false);
   };
-  add("--fault", words.faults, "NAME[=VALUE]: a fault from the start; may be repeated");
-  add("--at", words.timed, "SECONDS:NAME[=VALUE]: a fault then; may be repeated");
-  auto* const cycle = add("--cycle", words.cycle, "NAME[=VALUE],...: faults that come one after the other, for ever");
+  add("--fault", words.faults, "Fault from the start, NAME[=VALUE]; may be repeated");
+  add("--at", words.timed, "Fault at a given time, SECONDS:NAME[=VALUE]; may be repeated");
+  auto* const cycle = add("--cycle", words.cycle, "Faults that come one after the other, for ever, NAME[=VALUE],...");
   cycle->delimiter(',');
-  auto* const every = app.add_option("--every", words.every_s, "Seconds between those of --cycle");
+  auto* const every = app.add_option("--every", words.every_s, "Seconds between the faults of --cycle");
   every->check(CLI::Range(0.1, 1e6));
   cycle->needs(every);
   every->needs(cycle);
-  app.footer("Faults, their values, meaning and [value when none is given]:\n" + fault_help() + '\n' + can_base_help());
+  app.footer("The faults, their values, their meaning and [the value when none is given]:\n" + fault_help() + '\n' +
+             can_base_help());
 }
 
 PioneerModel model_of(const Words& words) {

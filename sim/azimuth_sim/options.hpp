@@ -12,19 +12,19 @@
 
 namespace azimuth::sim {
 
-/// The command line, checked.
+/// The validated options of the command line.
 struct Options {
   SimulationSettings simulation;
-  std::vector<Fault> faults;  ///< from the start
+  std::vector<Fault> faults;  ///< Faults that are active from the start
   double speed = 1.0;
-  double duration_s = 0.0;  ///< virtual; 0: no end
+  double duration_s = 0.0;  ///< Duration of the simulation in virtual time; 0: unlimited
   bool end_at_arrival = false;
 
-  std::filesystem::path device;           ///< link to a pseudo-terminal; empty: TCP, or none
-  std::optional<std::uint16_t> tcp_port;  ///< 0: one that is free
-  std::string can_interface;              ///< empty: the base is on no bus
+  std::filesystem::path device;           ///< Link to a pseudo-terminal; empty: TCP or no serial line
+  std::optional<std::uint16_t> tcp_port;  ///< 0: any free port
+  std::string can_interface;              ///< Empty: the base is on no CAN bus
   std::filesystem::path camera_socket;
-  std::optional<ImageSettings> images;  ///< none: bearings only
+  std::optional<ImageSettings> images;  ///< nullopt: bearings only
   std::filesystem::path control_socket;
   RunFileNames files;
   bool quiet = false, verbose = false;
@@ -32,7 +32,7 @@ struct Options {
 
 struct ParsedOptions {
   Options options;
-  std::optional<int> exit_code;  ///< set: end with it, everything has been said
+  std::optional<int> exit_code;  ///< If set, the program must end with this code; all messages have been printed
 };
 
 ParsedOptions parse_options(int argc, const char* const* argv);

@@ -5,14 +5,14 @@
 
 namespace azimuth::sim {
 
-/// Virtual time, running along with the clock on the wall at a speed.
+/// Virtual time that runs with the real clock at a given speed.
 ///
 /// Thread contract: reentrant.
 class PacedClock {
  public:
   using Monotonic = std::chrono::steady_clock;
 
-  /// Virtual time begins at `start`. `speed` is positive.
+  /// Virtual time 0 is at `start`. `speed` must be positive.
   PacedClock(Monotonic::time_point start, Duration epoch_minus_monotonic, double speed)
       : start_(start), epoch_minus_monotonic_(epoch_minus_monotonic), speed_(speed) {}
 
@@ -24,11 +24,11 @@ class PacedClock {
     const std::chrono::duration<double, std::micro> passed(static_cast<double>(to_us(stamp)) / speed_);
     return start_ + std::chrono::ceil<std::chrono::nanoseconds>(passed);
   }
-  /// On CLOCK_MONOTONIC, as the camera link's stamps are.
+  /// Converts a stamp to CLOCK_MONOTONIC, on which the stamps of the camera link are.
   Stamp monotonic_stamp(Stamp stamp) const {
     return Stamp(std::chrono::floor<Duration>(to_monotonic(stamp).time_since_epoch()));
   }
-  /// Since the Unix epoch, as a daemon that reads this robot stamps.
+  /// Converts a stamp to the time since the Unix epoch, like the stamps of a daemon that reads this robot.
   Stamp epoch_stamp(Stamp stamp) const { return monotonic_stamp(stamp) + epoch_minus_monotonic_; }
 
  private:

@@ -10,14 +10,14 @@
 namespace azimuth::sim {
 
 struct ImageSettings {
-  std::string camera = "mirror";  ///< of standard_camera()
+  std::string camera = "mirror";  ///< A name of standard_camera()
   PixelFormat pixels = PixelFormat::rgb8;
   double rate_hz = 15.0;
-  double scale = 1.0;  ///< of the image's sides; coarser images are rendered sooner
-  double noise = 1.5;  ///< standard deviation of each sample, of 256 steps
+  double scale = 1.0;  ///< Scale of the image's sides; smaller images render faster
+  double noise = 1.5;  ///< Standard deviation of the noise of each sample, in 8-bit steps
 };
 
-/// Images of the scenario's landmarks: as coloured cylinders for a mirror, as lamps for a fisheye.
+/// Renders the scenario's landmarks: as coloured cylinders for a mirror, as lamps for a fisheye.
 ///
 /// Thread contract: thread-bound.
 class RenderedFrames : public FrameSource {
@@ -35,10 +35,10 @@ class RenderedFrames : public FrameSource {
   Renderer renderer_;
 };
 
-/// Null when no images are wanted.
+/// Returns null if `settings` is empty.
 std::unique_ptr<FrameSource> make_frames(const Scenario& scenario, const std::optional<ImageSettings>& settings);
 
-/// The rig.toml of a robot with that camera.
+/// The rig.toml of a robot with this camera.
 std::string image_rig_toml(const Scenario& scenario, const ImageSettings& settings);
 
 }  // namespace azimuth::sim

@@ -21,7 +21,7 @@ double own_speed_m_per_s(const DriveSettings& drive) {
   return std::get<SmoothDrive>(drive).speed_m_per_s;
 }
 
-/// The wheels' paths for what the odometer reports.
+/// The wheel motion for a control that the odometer reports.
 WheelMotion wheels_for(const Control& by_wheels, double track_m, double body_turn_rad) {
   const double half_m = (by_wheels.first_turn_rad + by_wheels.second_turn_rad) * track_m / 2;
   return {by_wheels.distance_m - half_m, by_wheels.distance_m + half_m, body_turn_rad};
@@ -103,7 +103,7 @@ void Rover::begin_segment() {
 
 Control Rover::next_control() {
   if (ordered_) {
-    plan_.clear();  // afterwards the driver looks anew where the robot is
+    plan_.clear();  // Makes the driver start afresh from the robot's pose afterwards
     return control_for(*ordered_, to_seconds(tick_));
   }
   if (left_alone_ == LeftAlone::stands) return {};
@@ -118,7 +118,7 @@ Control Rover::next_control() {
   return control;
 }
 
-/// A stop-and-go control becomes ticks that turn, ticks that drive and ticks that turn, as wheels have to.
+/// Splits a stop-and-go control into ticks that turn, ticks that drive and ticks that turn.
 void Rover::plan(const Control& control) {
   const auto ticks = static_cast<int>(std::lround(tick_s(drive_) / to_seconds(tick_)));
   if (ticks < 4) return plan_.push_back(control);

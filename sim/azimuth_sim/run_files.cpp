@@ -21,7 +21,7 @@ FileResult<void> open_table(std::ofstream& stream, const std::filesystem::path& 
   return {};
 }
 
-/// Towards zero, so that an angle just inside [-pi, pi) stays there.
+/// Rounds towards zero, so that an angle just inside [-pi, pi) stays there.
 double rounded_angle(double angle_rad) { return std::trunc(angle_rad * 1e6) / 1e6 + 0.0; }
 
 Pose2 rounded(const Pose2& pose) { return {recorded(pose.x_m), recorded(pose.y_m), rounded_angle(pose.heading_rad)}; }
@@ -52,7 +52,7 @@ void RunFiles::add(const SimulationOutput& output, const PacedClock& clock) {
       const Pose2 row = rounded(pose);
       fmt::print(truth_, "{},{},{},{}\n", seconds(clock.epoch_stamp(stamp)), row.x_m, row.y_m, row.heading_rad);
     }
-    truth_.flush();  // nothing is lost by a kill
+    truth_.flush();  // A killed process then loses nothing
   }
   if (sip_log_.is_open() && !output.latches.empty()) {
     for (const auto& [stamp, pose] : output.latches) {

@@ -1,5 +1,5 @@
 #pragma once
-// What the simulator leaves behind, for whoever compares a daemon with the truth.
+// Output files of the simulator, for comparison of a daemon with the truth.
 
 #include <filesystem>
 #include <fstream>
@@ -11,24 +11,24 @@
 
 namespace azimuth::sim {
 
-/// Empty: not wanted.
+/// Names of the output files. A file with an empty name is not written.
 struct RunFileNames {
-  std::filesystem::path truth;       ///< truth.csv of run folders
-  std::filesystem::path sip_log;     ///< t_latch_s,x_raw,y_raw,heading_raw
+  std::filesystem::path truth;       ///< truth.csv in the format of run folders
+  std::filesystem::path sip_log;     ///< Columns: t_latch_s,x_raw,y_raw,heading_raw
   std::filesystem::path run_folder;  ///< rig.toml, landmarks.csv, truth.csv, and the samples of ideal devices
 };
 
-/// Stamps are those a daemon on this machine would give. The two tables grow line by line; the folder is written at the
-/// start, without samples, and again at the end.
+/// Writes the output files, with the stamps that a daemon on this machine would give. The two tables are written line
+/// by line. The run folder is written at the start, without samples, and again at the end.
 ///
 /// Thread contract: thread-bound.
 class RunFiles {
  public:
-  /// `rig_text` is the folder's rig.toml; empty: that of the scenario, whose camera gives bearings.
+  /// `rig_text` is the rig.toml of the run folder; if it is empty, that of the scenario, whose camera gives bearings.
   static FileResult<RunFiles> create(const RunFileNames& names, const Scenario& scenario, std::string rig_text = {});
 
   void add(const SimulationOutput& output, const PacedClock& clock);
-  /// What could not be written.
+  /// Completes the files; returns the errors of writing.
   [[nodiscard]] FileResult<void> finish();
 
  private:

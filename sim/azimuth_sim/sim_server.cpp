@@ -18,7 +18,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Within a burst bytes are handed on in batches of this long, as USB adapters do: its first byte is on time.
+/// Bytes of a burst are transferred in batches of this length, as by USB adapters; the first byte of a burst is on
+/// time.
 constexpr auto kBatch = 1ms;
 constexpr auto kReplugRetry = 100ms;
 constexpr Duration kStatusPeriod = 10s;
@@ -31,7 +32,7 @@ sigset_t stop_signals() {
   return signals;
 }
 
-/// Of a robot that has no serial line: nobody comes, and what is sent is gone.
+/// Carrier of a robot without a serial line: there is no client, and bytes sent are lost.
 class NoCarrier final : public Carrier {
  public:
   explicit NoCarrier(std::string address) : address_(std::move(address)) {}
@@ -103,7 +104,7 @@ SimServer::SimServer(const Options& options, SimDevices devices)
 }
 
 FileResult<void> SimServer::run() {
-  ::prctl(PR_SET_TIMERSLACK, 1UL);  // bytes are to leave when they are due
+  ::prctl(PR_SET_TIMERSLACK, 1UL);  // Bytes must leave when they are due
   lines_.open_standard_input();
   if (!options_.control_socket.empty()) {
     if (auto opened = lines_.open_socket(options_.control_socket); !opened) return opened;

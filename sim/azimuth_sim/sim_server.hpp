@@ -1,5 +1,5 @@
 #pragma once
-// The simulation on the wall's clock: one loop that waits, lets time pass and carries bytes.
+// The simulation in real time: one loop that waits, advances virtual time and transfers bytes.
 
 #include <memory>
 #include <optional>
@@ -19,21 +19,21 @@
 
 namespace azimuth::sim {
 
-/// Everything that can go wrong before the robot drives.
+/// The devices and files of a simulation. open_devices() detects all errors before the robot drives.
 struct SimDevices {
-  std::unique_ptr<Carrier> carrier;  ///< plugged in
+  std::unique_ptr<Carrier> carrier;  ///< Carrier that is already plugged in
   RunFiles files;
   std::optional<CameraLink> camera;
   std::optional<CanSender> can;
 };
 FileResult<SimDevices> open_devices(const Options& options, std::unique_ptr<FrameSource> frames);
 
-/// Thread contract: thread-bound. Expects stop signals blocked (block_stop_signals()).
+/// Thread contract: thread-bound. Stop signals must be blocked (block_stop_signals()).
 class SimServer {
  public:
   SimServer(const Options& options, SimDevices devices);
 
-  /// Until a signal, `quit`, or the end the options name. What went wrong at the end.
+  /// Runs until a signal, `quit`, or the end that the options define. Returns the errors at the end.
   [[nodiscard]] FileResult<void> run();
 
  private:
@@ -50,7 +50,7 @@ class SimServer {
   void tell(const std::string& news) const;
   bool over() const;
 
-  /// What was last told about.
+  /// The state that was last printed.
   struct Told {
     bool client = false, session = false, plugged = true, arrived = false;
     int baud = 0;
@@ -76,7 +76,7 @@ class SimServer {
   bool stopped_ = false;
 };
 
-/// SIGTERM and SIGINT are read, not suffered.
+/// Blocks SIGTERM and SIGINT, which SimServer reads from a signalfd.
 void block_stop_signals();
 
 }  // namespace azimuth::sim

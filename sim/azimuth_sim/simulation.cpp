@@ -69,7 +69,7 @@ void Simulation::take_samples(Stamp now, SimulationOutput& output) {
   if (can_ && can_->ring(now)) report_on_can(now, output);
 }
 
-/// The base shares the controller's fate: what restarts or silences the one does so to the other.
+/// The base has the same faults as the controller: a restart or silence of the controller applies to the base too.
 void Simulation::report_on_can(Stamp now, SimulationOutput& output) {
   const WheelMotion rolled = rover_.rolled_by(now);
   if (std::exchange(can_reboots_, pioneer_.counts().reboots) != pioneer_.counts().reboots) can_base_.restart(rolled);

@@ -1,5 +1,5 @@
 #pragma once
-// World, robot and line together, in virtual time: all that azimuth-sim is apart from descriptors and clocks.
+// World, robot and serial line in virtual time: all of azimuth-sim except descriptors and clocks.
 
 #include <cstdint>
 #include <optional>
@@ -18,51 +18,52 @@ struct SimulationSettings {
   Scenario scenario;
   PioneerModel model;
   FaultSchedule faults;
-  std::optional<Duration> frame_period;  ///< none: no images are taken
-  bool has_can_base = false;             ///< the base reports on a CAN bus
+  std::optional<Duration> frame_period;  ///< nullopt: no images are taken
+  bool has_can_base = false;             ///< Whether the base reports on a CAN bus
   LeftAlone left_alone = LeftAlone::follows_its_path;
 };
 
-/// Where a camera is when it takes an image.
+/// The instant of an image and the robot's pose then.
 struct FrameInstant {
   Stamp stamp{};
   Pose2 T_world_body;
 };
 
-/// What happened, in order; stamps are virtual.
+/// The events of a simulation step, in order. Stamps are in virtual time.
 struct SimulationOutput {
   std::vector<BearingSet> bearings;
   std::vector<TruePose> truth;
-  std::vector<OdometryReading> odometry;  ///< of an ideal reader of the wheels; the Pioneer's is on the line
+  /// Readings of an ideal reader of the wheels. The Pioneer's odometry is on the serial line.
+  std::vector<OdometryReading> odometry;
   std::vector<FrameInstant> frames;
   std::vector<CanFrame> can_frames;
   std::vector<SipLatch> latches;
-  std::vector<Fault> faults;  ///< that have come
+  std::vector<Fault> faults;  ///< Faults that became active
 
   void clear();
 };
 
-/// The truth is told at every tick of the drive, between which it is a straight line: a robot that turns on the spot
-/// and drives on is nowhere near the line between two samples that are far apart.
+/// Simulates the robot. The truth is output at every tick of the drive, within which the motion is a straight line: for
+/// a robot that turns on the spot, interpolation between distant samples would be wrong.
 ///
-/// Everything is a function of settings and of what the client sends when: how often advance() is called changes
-/// nothing. Thread contract: thread-bound.
+/// The output is a function of the settings and of what the client sends when; it does not depend on how often
+/// advance() is called. Thread contract: thread-bound.
 class Simulation {
  public:
   explicit Simulation(const SimulationSettings& settings);
 
   SimulatedPioneer& pioneer() { return pioneer_; }
   const Rover& rover() const { return rover_; }
-  /// Where the robot really is; `now` as in advance().
+  /// The true pose of the robot; `now` as in advance().
   Pose2 pose_in_world(Stamp now) { return rover_.pose_in_world(now); }
 
-  /// When advance() is to be called next, at the latest.
+  /// The latest instant of the next advance().
   Stamp due() const;
-  /// Appends to `output`. `now` never decreases.
+  /// Appends the events up to `now` to `output`. `now` must not decrease.
   void advance(Stamp now, SimulationOutput& output);
 
  private:
-  /// Rings at even intervals.
+  /// Fires at regular intervals.
   class Timer {
    public:
     Timer(Duration period, Duration phase) : period_(period), next_(phase) {}

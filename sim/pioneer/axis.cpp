@@ -32,8 +32,9 @@ void Axis::advance(double step_s, const AxisRamps& ramps, bool held) {
   speed_ += std::clamp(wanted - speed_, -most, most);
 }
 
-/// The speed v from which the way left is just enough to go on for two steps, since an order takes effect late, and
-/// then to stop: v T + v^2 / (2 a) = way left. It shrinks with the way no faster than `deceleration`.
+/// The speed v at which the remaining distance suffices for two more steps, since an order takes effect late, and then
+/// for stopping: v T + v^2 / (2 a) = distance left, where T is two steps. While the distance shrinks, v falls no faster
+/// than `deceleration`.
 double Axis::wanted_speed(double step_s, double deceleration) const {
   if (!has_way_) return ordered_speed_;
   if (std::abs(way_left_) <= tolerance_) return 0.0;

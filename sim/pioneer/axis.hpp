@@ -2,34 +2,34 @@
 
 namespace azimuth::sim {
 
-/// Of one axis, in its own unit u: u/s and u/s^2.
+/// Ramps of one axis [u/s^2], where u is the axis's unit: metre or radian.
 struct AxisRamps {
   double acceleration = 0.0, deceleration = 0.0;
 };
 
-/// One of the two ways a robot moves: along, in metres, or round, in radians. Either keeps to an ordered speed or goes
-/// an ordered way with a trapezoidal profile, which follows what the wheels have counted: what a ramp or a delay made
-/// too long is gone back.
+/// One of the robot's two degrees of freedom: translation in metres or rotation in radians. It keeps an ordered speed
+/// or covers an ordered distance with a trapezoidal profile. The remaining distance follows the wheel counters, so an
+/// overshoot by a ramp or a delay is driven back.
 ///
 /// Thread contract: thread-bound.
 class Axis {
  public:
-  /// A way is at its end when no more than `tolerance` is left of it, either way.
+  /// An order of a distance is complete when at most `tolerance` is left, in either direction.
   explicit Axis(double tolerance) : tolerance_(tolerance) {}
 
-  /// Each replaces what was ordered before. `limit`: the highest speed, of this order only.
+  /// Each order replaces the previous one. `limit`: the greatest speed, for this order only.
   void order_speed(double speed, double limit);
   void order_way(double way, double limit);
-  /// Stands at once and has nothing to do any more.
+  /// Stops at once and cancels the order.
   void halt();
 
-  /// What the wheels did.
+  /// Adds motion of the wheels.
   void count(double way);
-  /// The next `step_s` begin. `held`: the speed goes to zero, what is ordered waits.
+  /// Begins the next `step_s`. `held`: the speed ramps to zero, the order waits.
   void advance(double step_s, const AxisRamps& ramps, bool held);
 
   double speed() const { return speed_; }
-  /// Of the ordered way; 0 when a speed is ordered.
+  /// Rest of an ordered distance; 0 if a speed is ordered.
   double way_left() const { return has_way_ ? way_left_ : 0.0; }
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// What brings the simulated line to clients outside the process.
+// Connects the simulated line to clients outside the process.
 
 #include <chrono>
 #include <optional>
@@ -12,31 +12,31 @@
 
 namespace azimuth::sim {
 
-/// Never blocks. A client may come, go and die at any moment.
+/// Never blocks. Clients may connect, leave and die at any time.
 ///
 /// Thread contract: thread-bound.
 class Carrier {
  public:
   virtual ~Carrier() = default;
 
-  /// Makes the device appear; what stood in the way. Harmless when it is there.
+  /// Makes the device appear; returns the errors. No effect if it is plugged in already.
   [[nodiscard]] virtual FileResult<void> plug_in() = 0;
-  /// Makes it disappear under whoever uses it.
+  /// Makes the device disappear, even for a connected client.
   virtual void unplug() = 0;
 
-  /// Appends what to wait for.
+  /// Appends the descriptors to wait for.
   virtual void watch(std::vector<pollfd>& watched) const = 0;
-  /// How long the next turn() may wait at most.
+  /// Greatest time until the next turn().
   virtual std::chrono::milliseconds patience() const = 0;
-  /// Lets clients in and out, and appends the bytes they sent.
+  /// Accepts and drops clients, and appends the bytes that they sent.
   virtual void turn(Bytes& from_client) = 0;
-  /// Hands bytes on. Those that nobody takes are gone, as on a wire.
+  /// Sends bytes to the client. Bytes that nobody receives are lost, as on a wire.
   virtual void send(pioneer::ByteView bytes) = 0;
 
   virtual bool has_client() const = 0;
-  /// The baud rate the client has set; nothing when there is no such thing.
+  /// The baud rate that the client has set; nullopt if the carrier has no baud rate.
   virtual std::optional<int> client_baud() const = 0;
-  /// Where clients connect to: what --device or daemon settings would say.
+  /// The address for clients: the value of --device or of the daemon's settings.
   virtual std::string address() const = 0;
 };
 

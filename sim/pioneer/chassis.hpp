@@ -7,15 +7,15 @@
 
 namespace azimuth::sim {
 
-/// The robot the controller sits in. Somebody may drive it without a client of this line: another program.
+/// The robot that carries the controller. It may also be driven without a client of this line, by another program.
 class Chassis {
  public:
   virtual ~Chassis() = default;
-  /// What wheels and body did since the instant asked for last. Instants never decrease.
+  /// Motion of wheels and body since the last requested instant. Instants must not decrease.
   virtual WheelMotion roll_to(Stamp until) = 0;
-  /// From now on a client drives like this; nothing: no client drives.
+  /// Sets the motion that a client orders; nullopt: no client drives.
   virtual void drive(const std::optional<Twist>& ordered) = 0;
-  /// Whoever drives without a client keeps to this speed on straights; 0: to their own.
+  /// Sets the speed on straights of a robot that no client drives; 0: its own speed.
   virtual void hurry(double speed_m_per_s) = 0;
 };
 

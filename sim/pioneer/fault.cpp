@@ -14,11 +14,11 @@
 
 namespace azimuth::sim {
 
-/// One row of the table: values are numbers from low to high, or words that stand for 0, 1, 2 ...
+/// One row of the table. Values are numbers from `low` to `high`, or words that represent 0, 1, 2, ...
 struct FaultKind {
   std::string_view name;
   std::span<const std::string_view> words;
-  double low, high, usual;  ///< usual: without a value
+  double low, high, usual;  ///< `usual` applies if no value is given
   std::string_view help;
   void (*apply)(SimulatedPioneer& pioneer, double value);
 };
@@ -66,7 +66,7 @@ void set_stall(SimulatedPioneer& pioneer, double wheels) {
 void set_bumpers(SimulatedPioneer& pioneer, double sides) {
   FirmwareQuirks& quirks = pioneer.firmware().quirks;
   const auto bits = static_cast<unsigned>(sides);
-  const auto hit = [](unsigned bit) { return bit != 0 ? 0b0000'1000U : 0U; };  // the middle one of five
+  const auto hit = [](unsigned bit) { return bit != 0 ? 0b0000'1000U : 0U; };  // The middle one of five bumpers
   quirks.left_stall_bumpers = static_cast<std::uint8_t>((quirks.left_stall_bumpers & 1U) | hit(bits & 1U));
   quirks.right_stall_bumpers = static_cast<std::uint8_t>((quirks.right_stall_bumpers & 1U) | hit(bits & 2U));
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Faults by name, as the command line and people at a running simulator say them: NAME or NAME=VALUE.
+// Faults by name, for the command line and for commands to a running simulator: NAME or NAME=VALUE.
 
 #include <string>
 #include <string_view>
@@ -11,8 +11,8 @@ namespace azimuth::sim {
 
 struct FaultKind;
 
-/// A fault that was understood. It lasts until the same name is given another value, apart from those that pass by
-/// themselves (reboot, unplug, silence).
+/// A parsed fault. It lasts until the same name is given another value, except for transient faults (reboot, unplug,
+/// silence).
 class Fault {
  public:
   void apply(SimulatedPioneer& pioneer) const;
@@ -26,10 +26,10 @@ class Fault {
   double value_;
 };
 
-/// The fault, or what is wrong with the text.
+/// Returns the fault, or the error in the text.
 tl::expected<Fault, std::string> parse_fault(std::string_view text);
 
-/// One line a fault: name, values, meaning.
+/// One line for each fault: name, values, meaning.
 std::string fault_help();
 
 }  // namespace azimuth::sim

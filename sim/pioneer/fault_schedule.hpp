@@ -1,5 +1,5 @@
 #pragma once
-// When faults come: once each at an instant, and one after the other from a list, again and again.
+// Schedule of faults: single ones at given instants, and a list that is repeated cyclically.
 
 #include <string>
 #include <string_view>
@@ -15,19 +15,19 @@ struct TimedFault {
   Fault fault;
 };
 
-/// SECONDS:NAME[=VALUE]; or what is wrong with the text.
+/// Parses SECONDS:NAME[=VALUE]; returns the error in the text if there is one.
 tl::expected<TimedFault, std::string> parse_timed_fault(std::string_view text);
 
 /// Thread contract: thread-bound.
 class FaultSchedule {
  public:
   FaultSchedule() = default;
-  /// `cycle`: one of them each `period`, in order; none when it is empty.
+  /// `cycle`: one fault each `period`, in order and repeatedly; may be empty.
   FaultSchedule(std::vector<TimedFault> once, std::vector<Fault> cycle, Duration period);
 
-  /// When the next fault comes; never is Stamp::max().
+  /// Instant of the next fault; Stamp::max() if there is none.
   Stamp due() const;
-  /// Those that are due, in order.
+  /// Returns the faults that are due, in order.
   std::vector<Fault> take(Stamp now);
 
  private:
@@ -35,7 +35,7 @@ class FaultSchedule {
   Stamp cycle_due() const { return cycle_.empty() ? Stamp::max() : next_cycle_at_; }
   Fault take_one();
 
-  std::vector<TimedFault> once_;  // by time
+  std::vector<TimedFault> once_;  // Sorted by time
   std::vector<Fault> cycle_;
   Duration period_{};
   Stamp next_cycle_at_{};

@@ -7,7 +7,7 @@ using pioneer::kSync0, pioneer::kSync1, pioneer::kSync2;
 
 namespace {
 
-/// How long the controller hears nothing after a reboot.
+/// Time after a reboot during which the controller receives nothing.
 constexpr Duration kBootTime = std::chrono::milliseconds(500);
 
 }  // namespace
@@ -54,11 +54,11 @@ void Firmware::synchronise(std::uint8_t number) {
   } else if (number == kSync2 && session_ == Session::expects_sync2) {
     session_ = Session::expects_open;
     send(names_packet(model_));
-  } else if (number == kSync1 && session_ == Session::expects_open) {  // in this place it is OPEN
+  } else if (number == kSync1 && session_ == Session::expects_open) {  // OPEN in this state
     open(now_);
   } else if (number == kSync2 && (session_ == Session::expects_open || session_ == Session::expects_sync0)) {
-    session_ = Session::expects_sync0;                // in these places it is CLOSE
-  } else if (number == kSync1 || number == kSync2) {  // wrong sync count
+    session_ = Session::expects_sync0;                // CLOSE in these states
+  } else if (number == kSync1 || number == kSync2) {  // Wrong sync number
     session_ = Session::expects_sync0;
     send(bare_packet(pioneer::packet_id::reboot));
   }
@@ -69,7 +69,7 @@ void Firmware::open(Stamp now) {
   session_ = Session::open;
   wheels_.reset_pose(quirks.start_units, quirks.start_units, quirks.start_heading_rad);
   wheels_.take_travel();
-  sonar_.switch_on(true);  // as real controllers do; clients that do not want it say so
+  sonar_.switch_on(true);  // Like real controllers; clients that do not want sonar switch it off
   encoder_request_.ask(0);
   io_request_.ask(0);
   gyro_request_ = false;
@@ -115,7 +115,7 @@ void Firmware::serve(const pioneer::DecodedCommand& command) {
   }
 }
 
-/// Commands that are about packets.
+/// Executes commands about packets.
 void Firmware::stream(Command command, int value) {
   switch (command) {
     case Command::config:
@@ -134,7 +134,7 @@ void Firmware::stream(Command command, int value) {
   }
 }
 
-/// The high byte says which outputs are meant, the low byte what they are set to.
+/// The high byte selects the outputs, the low byte gives their values.
 void Firmware::set_outputs(int value) {
   const auto which = static_cast<unsigned>(value) >> 8U, state = static_cast<unsigned>(value);
   digital_out_ = static_cast<std::uint8_t>((digital_out_ & ~which) | (state & which));

@@ -1,5 +1,5 @@
 #pragma once
-// The Pioneer's controller as a machine: bytes and wheel motion in, packets out, in virtual time.
+// The Pioneer's controller as a state machine: bytes and wheel motion in, packets out, in virtual time.
 
 #include <optional>
 #include <utility>
@@ -18,59 +18,59 @@
 
 namespace azimuth::sim {
 
-/// When a kind of packet streams: never, when a client asked for it, or asked or not.
+/// When a kind of packet is sent: never, on a client's request, or always.
 enum class Stream { off, on_request, always };
 
-/// Which id standard SIPs carry. Some simulators and firmware never tell the truth with it.
+/// The id that standard SIPs carry. Some simulators and firmware always send the same id.
 enum class SipId { as_moving, always_stopped, always_moving };
 
-/// How this controller differs from a well-behaved one. All may change while it runs.
+/// Deviations of this controller from a well-behaved one. All may be changed at run time.
 struct FirmwareQuirks {
-  bool bad_config_checksum = false;  ///< as real P3DX-SH firmware
-  std::optional<int> position_bits;  ///< 15 or 16; else the model's
-  double start_units = 0.0;          ///< x and y right after OPEN, so that a wrap comes soon
-  double start_heading_rad = 0.0;    ///< likewise
-  std::optional<int> watchdog_ms;    ///< else the model's
-  bool watchdog_holds_all = false;   ///< the watchdog also holds wheels that no client of this line drives
+  bool bad_config_checksum = false;  ///< As in real P3DX-SH firmware
+  std::optional<int> position_bits;  ///< 15 or 16; nullopt: the model's value
+  double start_units = 0.0;          ///< X and y after OPEN, so that an overflow occurs soon
+  double start_heading_rad = 0.0;    ///< Heading after OPEN
+  std::optional<int> watchdog_ms;    ///< nullopt: the model's value
+  bool watchdog_holds_all = false;   ///< The watchdog also stops wheels that no client of this line drives
   bool refuses_host_baud = false;    ///< HOSTBAUD has no effect
-  bool resends_sonar = false;        ///< every sonar in every SIP, whatever SONAR says
+  bool resends_sonar = false;        ///< Each SIP holds all sonars, even after the command SONAR 0
   SipId sip_id = SipId::as_moving;
   Stream encoder = Stream::on_request;
-  Stream gyro = Stream::on_request;  ///< needs a model with gyro, unless always
+  Stream gyro = Stream::on_request;  ///< Except for `always`, the model must have a gyro
   std::uint8_t left_stall_bumpers = 0, right_stall_bumpers = 0;
-  bool emergency_stop = false;  ///< the button is pressed; wheels that another program drives do not mind
+  bool emergency_stop = false;  ///< The button is pressed; it does not affect wheels that another program drives
 };
 
-/// The true instant of what a SIP says: its x, y and heading are those of the wheels at `stamp`.
+/// The true instant of a SIP. The x, y and heading in the SIP are those of the wheels at `stamp`.
 struct SipLatch {
   Stamp stamp{};
   RawPose pose;
 };
 
-/// What a client asked for with 0, nothing; 1, one packet with the next cycle; more, one with each.
+/// A client's request: 0 for no packet, 1 for one packet in the next cycle, more for one in each cycle.
 class PacketRequest {
  public:
   void ask(int argument) { argument_ = argument; }
-  /// Whether one is to go out now.
+  /// Whether a packet must be sent now.
   bool take() { return argument_ > 1 || std::exchange(argument_, 0) == 1; }
 
  private:
   int argument_ = 0;
 };
 
-/// A packet on its way out.
+/// A packet to be sent.
 struct Outgoing {
   pioneer::Frame frame;
-  int baud = 0;                   ///< of the line when it was handed over
-  std::optional<SipLatch> latch;  ///< of a standard SIP
+  int baud = 0;                   ///< Baud rate of the line when the packet was handed over
+  std::optional<SipLatch> latch;  ///< Only for standard SIPs
 };
 
-/// Sessions as the clients of a real controller expect them (docs/pioneer.md): SYNC0, SYNC1, SYNC2, OPEN; SIPs each
-/// cycle until CLOSE. The numbers 0, 1 and 2 mean synchronisation outside a session and PULSE, OPEN, CLOSE inside, so
-/// whoever comes upon an old session is answered by SIPs. A CLOSE that finds nothing to end is not answered at all:
-/// clients say it before anything else.
+/// The protocol of sessions follows that of a real controller (docs/pioneer.md): SYNC0, SYNC1, SYNC2, OPEN; then a SIP
+/// each cycle until CLOSE. The numbers 0, 1 and 2 denote synchronisation outside a session, and PULSE, OPEN and CLOSE
+/// inside. A client that meets an old session is therefore answered by SIPs. A CLOSE outside a session is not answered;
+/// clients send it first.
 ///
-/// Commands that are not simulated only keep the watchdog quiet.
+/// Commands that are not simulated only reset the watchdog.
 ///
 /// Thread contract: thread-bound. Times never decrease from call to call.
 class Firmware {
@@ -79,29 +79,29 @@ class Firmware {
 
   FirmwareQuirks quirks;
 
-  /// Bytes from the client, at the right baud rate.
+  /// Bytes from the client, sent at the right baud rate.
   void receive(pioneer::ByteView bytes, Stamp now);
-  /// What the wheels did since the last call, up to now.
+  /// Motion of the wheels since the last call, up to now.
   void roll(const WheelMotion& motion);
-  /// When advance() is to be called next; never, without a session, is Stamp::max().
+  /// Instant of the next advance(); Stamp::max() without a session.
   Stamp due() const { return session_ == Session::open ? next_sample_ : Stamp::max(); }
   void advance(Stamp now);
-  /// The packets since the last call, in order.
+  /// Returns the packets since the last call, in order.
   std::vector<Outgoing> take_output();
 
-  /// A session opens without a client, as one that was killed leaves it.
+  /// Opens a session without a client, as left by a client that was killed.
   void open(Stamp now);
-  /// Power fails for a moment: session and odometry are gone. `id` is the packet that tells: reboot or
-  /// reboot_with_data.
+  /// Simulates a brief power failure: session and odometry are lost. `id` is that of the packet that announces it:
+  /// reboot or reboot_with_data.
   void reboot(std::uint8_t id, Stamp now);
-  /// The baud rate an earlier session left behind.
+  /// Sets the baud rate that an earlier session left.
   void set_baud(int baud) { baud_ = baud; }
 
   int baud() const { return baud_; }
   bool in_session() const { return session_ == Session::open; }
-  /// How a client drives; nothing when none does.
+  /// The motion that a client orders; nullopt if no client drives.
   std::optional<Twist> driven() const { return motors_.driven(); }
-  /// The watchdog stops wheels that others drive too.
+  /// Whether the watchdog holds all wheels, including those that other programs drive.
   bool holds_all() const { return quirks.watchdog_holds_all && motors_.held(); }
   const PioneerModel& model() const { return model_; }
   std::uint64_t commands() const { return commands_; }
@@ -143,7 +143,7 @@ class Firmware {
   std::vector<Outgoing> output_;
   int baud_;
   Stamp now_, deaf_until_, next_sample_, last_command_;
-  int samples_ = 0;  // of the present cycle
+  int samples_ = 0;  // Number of samples in the current cycle
   PacketRequest encoder_request_, io_request_;
   bool gyro_request_ = false;
   std::uint8_t analog_port_ = 0, digital_out_ = 0;

@@ -1,4 +1,4 @@
-// What the controller does by itself, cycle after cycle.
+// The periodic work of the controller.
 
 #include <cmath>
 #include <utility>
@@ -79,7 +79,7 @@ std::uint8_t Firmware::sip_id(bool moving) const {
 
 std::uint16_t Firmware::flags(bool moving) const {
   unsigned flags = 0;
-  if (motors_.enabled() || moving) flags |= 1U;  // whoever drives has enabled the motors
+  if (motors_.enabled() || moving) flags |= 1U;  // A robot that is driven has its motors enabled
   if (sonar_.on()) flags |= 1U << 1U;
   if (motors_.emergency_stopped() || quirks.emergency_stop) flags |= 1U << 5U;
   return static_cast<std::uint16_t>(flags);

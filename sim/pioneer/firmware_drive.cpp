@@ -1,4 +1,4 @@
-// Commands that move the robot, and those that say how.
+// Commands that move the robot, and commands that set limits of the motion.
 
 #include "sim/pioneer/firmware.hpp"
 #include "slam/geometry/angle.hpp"
@@ -42,7 +42,7 @@ void Firmware::drive_wheels(int value) {
   motors_.order_wheels(left, right);
 }
 
-/// The sign of an acceleration says whether it is for speeding up or for slowing down.
+/// The sign of an acceleration tells whether it is for speeding up or for slowing down.
 void Firmware::limit(Command command, int value) {
   switch (command) {
     case Command::set_max_velocity:

@@ -9,9 +9,9 @@
 namespace azimuth::sim {
 namespace {
 
-// 10 bits of 5 V, 2.5 V for 300 deg/s, and the GyroScaler of the maker's parameter files.
+// 10 bits for 5 V, 2.5 V for 300 deg/s, and the GyroScaler of the manufacturer's parameter files.
 constexpr double kDegPerSPerCount = 5.0 / 1023 * (300 / 2.5) * 1.626;
-constexpr double kCentre = 511.3;  // no two gyros rest at the same count: clients have to learn it
+constexpr double kCentre = 511.3;  // The rest count differs between gyros, so clients must estimate it
 constexpr double kSigmaCounts = 0.6;
 constexpr std::uint8_t kTemperature = 25;
 
@@ -20,7 +20,7 @@ constexpr std::uint8_t kTemperature = 25;
 void Gyro::sample(double period_s) {
   const double rate_deg_per_s = rad_to_degrees(turned_rad_ / period_s);
   turned_rad_ = 0.0;
-  // Clockwise counts up.
+  // Clockwise rotation counts up.
   const double counts = kCentre - rate_deg_per_s / kDegPerSPerCount + random_.normal(kSigmaCounts);
   samples_.push_back({static_cast<std::uint16_t>(std::clamp(std::lround(counts), 0L, 1023L)), kTemperature});
 }

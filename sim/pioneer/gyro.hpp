@@ -1,5 +1,5 @@
 #pragma once
-// The analog rate gyro: what the body really turns, coarsely and with noise.
+// The analogue rate gyro: measures the true rotation of the body, coarsely and with noise.
 
 #include <vector>
 
@@ -16,7 +16,7 @@ class Gyro {
   void turn(double body_turn_rad) { turned_rad_ += body_turn_rad; }
   /// Samples the mean rate since the last sample, `period_s` ago.
   void sample(double period_s);
-  /// Forgets what was turned and sampled.
+  /// Discards the rotation and the samples.
   void restart();
   /// The samples since the last call.
   std::vector<GyroSample> take();

@@ -13,7 +13,7 @@ struct Variant {
   int position_bits;
 };
 
-// The "-sh" controllers (ARCOS) count 16 bits, the older ones (P2OS) 15.
+// The "-sh" controllers (ARCOS) count 16 bits, the older ones (P2OS) count 15.
 constexpr std::array kVariants{
     Variant{"p3dx-sh", 1.0, 0.0056, 16},
     Variant{"p3at-sh", 1.0, 0.0034, 16},

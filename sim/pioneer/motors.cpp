@@ -19,7 +19,7 @@ void Motors::emergency_stop() {
   turning_.halt();
 }
 
-/// Whether there can be an order now. Whatever was ordered for the wheels ends with it.
+/// Whether an order is accepted now. It cancels an order for the wheels.
 bool Motors::begin_order() {
   if (!enabled_) return false;
   if (orders_wheels_) stop();

@@ -1,5 +1,5 @@
 #pragma once
-// The part of the controller that drives: what clients order, ramped, and stopped by the watchdog.
+// The drive part of the controller: client orders with ramps, stopped by the watchdog.
 
 #include <optional>
 
@@ -15,10 +15,11 @@ struct Twist {
   friend bool operator==(const Twist&, const Twist&) = default;
 };
 
-/// Whether a client drives, and how. Azimuth itself never does; other programs connect too.
+/// Whether and how a client drives. Azimuth itself never drives, but other programs may connect.
 ///
-/// Along and round are ordered independently of each other, each as a speed or as a way to go; the newest order of each
-/// counts. Orders for the two wheels take both, and one of the others then ends what was ordered for the wheels.
+/// Translation and rotation are ordered independently, each as a speed or as a distance; the newest order of each is in
+/// effect. An order for the two wheels replaces both orders; a later order for translation or rotation cancels the
+/// wheel order.
 ///
 /// Thread contract: thread-bound.
 class Motors {
@@ -27,38 +28,38 @@ class Motors {
 
   void enable(bool on);
   bool enabled() const { return enabled_; }
-  /// Stands at once, until the next order.
+  /// Stops at once, until the next order.
   void emergency_stop();
   bool emergency_stopped() const { return emergency_stopped_; }
 
-  // Orders; without effect while the motors are off.
+  // Orders; they have no effect while the motors are off.
 
   void order_speed(double speed_m_per_s);
   void order_turn_rate(double turn_rate_rad_per_s);
   void order_wheels(double left_m_per_s, double right_m_per_s);
-  void order_distance(double distance_m);  ///< < 0: backwards
-  void order_turn(double turn_rad);        ///< from where it faces now; > 0: counter-clockwise
+  void order_distance(double distance_m);  ///< Negative: backwards
+  void order_turn(double turn_rad);        ///< Relative to the current heading; positive: counter-clockwise
   void stop();
-  /// The session is over: nobody drives any more, and limits are the usual ones.
+  /// Ends the session: orders are cancelled and limits reset.
   void release();
 
-  /// Sets a limit, within the robot's own; 0 is none and changes nothing. Speed limits hold for later orders.
+  /// Sets a limit, up to that of the robot; 0 changes nothing. Speed limits apply to later orders.
   void limit(int MotionLimits::*which, int value);
   const MotionLimits& limits() const { return limits_; }
 
-  /// What the wheels have counted since the last call.
+  /// Motion counted by the wheels since the last call.
   void count(double distance_m, double turn_rad);
-  /// How much of an ordered turn is left; 0 when none is ordered.
+  /// Rest of an ordered rotation; 0 if none is ordered.
   double turn_left_rad() const { return turning_.way_left(); }
 
-  /// The watchdog holds the wheels still; orders stand and are resumed.
+  /// The watchdog's hold: the wheels stand; orders are kept and resumed.
   void hold(bool held) { held_ = held; }
   bool held() const { return held_; }
 
-  /// Ramps towards what is ordered; the next `step_s` begin.
+  /// Begins the next `step_s`: ramps the motion towards the orders.
   void advance(double step_s);
 
-  /// The present motion, if a client has ordered any since the session began.
+  /// The current motion, if a client has given any order since the session began.
   std::optional<Twist> driven() const;
 
  private:
@@ -66,12 +67,12 @@ class Motors {
   double speed_limit_m_per_s() const { return limits_.speed_mm_per_s / 1000.0; }
   double turn_rate_limit_rad_per_s() const;
 
-  static constexpr double kTolerance_m = 2e-4, kTolerance_rad = 1e-3;  // below what a SIP can tell
+  static constexpr double kTolerance_m = 2e-4, kTolerance_rad = 1e-3;  // Below the resolution of a SIP
 
   PioneerModel model_;
   MotionLimits limits_;
   bool enabled_ = false, emergency_stopped_ = false, held_ = false, driving_ = false;
-  bool orders_wheels_ = false;  // the newest order was for the wheels
+  bool orders_wheels_ = false;  // Whether the newest order is for the wheels
   Axis moving_{kTolerance_m}, turning_{kTolerance_rad};
 };
 

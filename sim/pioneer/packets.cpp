@@ -88,7 +88,7 @@ pioneer::Frame encoder_packet(std::int32_t left_ticks, std::int32_t right_ticks)
 }
 
 pioneer::Frame io_packet(const IoFields& fields) {
-  constexpr int kNothingNear = 0xFF;  // of infrared sensors, whose lines go low when something is there
+  constexpr int kNothingNear = 0xFF;  // Value of the infrared inputs, whose lines go low when an object is near
   constexpr int kAnalogInputs = 8;
   DataWriter data(pioneer::packet_id::io);
   data.u8(4).u8(fields.digital_in).u8(fields.front_bumpers).u8(fields.rear_bumpers).u8(kNothingNear);

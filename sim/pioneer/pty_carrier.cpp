@@ -26,9 +26,9 @@ constexpr std::array kSpeeds{
     Speed{B19200, 19200},   Speed{B38400, 38400},   Speed{B57600, 57600},   Speed{B115200, 115200},
     Speed{B230400, 230400}, Speed{B460800, 460800}, Speed{B921600, 921600},
 };
-constexpr int kUnknownBaud = 300;  // one that no controller has
+constexpr int kUnknownBaud = 300;  // A rate that no controller has
 
-/// Raw from the start: a fresh terminal echoes, and the robot would hear itself as a client.
+/// Sets the terminal to raw mode. A fresh terminal echoes, so the robot would receive its own output.
 int set_raw(int fd) {
   termios settings{};
   if (::tcgetattr(fd, &settings) != 0) return errno;
@@ -56,7 +56,7 @@ FileResult<void> PtyCarrier::open_terminal() {
   if (::grantpt(master.get()) != 0 || ::unlockpt(master.get()) != 0) return failed("cannot be unlocked", errno);
   std::array<char, 64> name{};
   if (const int error = ::ptsname_r(master.get(), name.data(), name.size())) return failed("has no name", error);
-  // On the master this sets the terminal's other side, where it outlives each client.
+  // Set on the master, this applies to the terminal's other side and outlives each client.
   if (const int error = set_raw(master.get())) return failed("cannot be made raw", error);
   terminal_ = name.data();
   master_ = std::move(master);
@@ -65,7 +65,7 @@ FileResult<void> PtyCarrier::open_terminal() {
   return {};
 }
 
-/// The new link takes the old one's place in one step, so that clients never find half of it.
+/// The new link replaces the old one atomically, so that clients never find an incomplete link.
 FileResult<void> PtyCarrier::make_link() {
   std::error_code error;
   const fs::file_status there = fs::symlink_status(link_, error);
@@ -89,7 +89,7 @@ void PtyCarrier::unplug() {
   has_client_ = false;
 }
 
-// A terminal nobody has open hangs up, and poll() says so without end: it is not waited for then, but looked at.
+// Without a client, poll() reports a hang-up continuously, so the terminal is polled at intervals instead.
 void PtyCarrier::watch(std::vector<pollfd>& watched) const {
   if (master_ && has_client_) watched.push_back({master_.get(), POLLIN, 0});
 }
@@ -103,7 +103,7 @@ void PtyCarrier::look_for_client() {
   has_client_ = here;
 }
 
-/// Nobody gets to read what came while no port was open, or what an earlier client left.
+/// Discards data that arrived while no port was open or that an earlier client left.
 void PtyCarrier::forget_unread() {
   const UniqueFd terminal(::open(terminal_.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (terminal) ::tcflush(terminal.get(), TCIOFLUSH);

@@ -6,8 +6,8 @@
 
 namespace azimuth::sim {
 
-/// A pseudo-terminal behind a link that keeps its name while the terminal behind it changes from plug to plug, as
-/// /dev/serial/by-id does. To the client it is a serial port in every respect but the timing of its UART.
+/// A pseudo-terminal behind a symbolic link. The link keeps its name while each plug-in makes another terminal, as in
+/// /dev/serial/by-id. For the client the terminal behaves like a serial port in everything but the timing of a UART.
 class PtyCarrier final : public Carrier {
  public:
   explicit PtyCarrier(std::filesystem::path link) : link_(std::move(link)) {}
@@ -15,7 +15,7 @@ class PtyCarrier final : public Carrier {
   PtyCarrier(const PtyCarrier&) = delete;
   PtyCarrier& operator=(const PtyCarrier&) = delete;
 
-  /// A link that is there already is replaced; anything else of that name is left alone and refused.
+  /// An existing link is replaced; any other file of that name is kept, and plugging in fails.
   FileResult<void> plug_in() override;
   void unplug() override;
   void watch(std::vector<pollfd>& watched) const override;
@@ -33,7 +33,7 @@ class PtyCarrier final : public Carrier {
   void look_for_client();
 
   std::filesystem::path link_;
-  std::string terminal_;  // path of the client's side
+  std::string terminal_;  // Path of the client's side
   UniqueFd master_;
   bool has_client_ = false;
 };

@@ -6,10 +6,10 @@
 namespace azimuth::sim {
 namespace {
 
-/// What the controller can hold back while the line is busy; a packet that does not fit is not sent.
+/// Size of the controller's send buffer; a packet that does not fit is not sent.
 constexpr std::size_t kTransmitBuffer = 256;
 
-// The wires and the lost SIPs draw from streams of their own.
+// The wires and the lost SIPs have random streams of their own.
 constexpr std::uint64_t kToClientSeed = 0x10000, kSipSeed = 0x20000;
 
 }  // namespace
@@ -46,14 +46,15 @@ void SimulatedPioneer::advance(Stamp now) {
 void SimulatedPioneer::step(Stamp now) {
   now_ = now;
   hear();
-  // The wheels are asked at the controller's own instants only, so that how often advance() is called changes nothing.
+  // The wheels are read only at the controller's own instants, so the result does not depend on how often advance() is
+  // called.
   if (!heard_.empty() || firmware_.due() <= now_) run_firmware();
   speak();
 }
 
 void SimulatedPioneer::hear() {
   heard_.clear();
-  // A bridge without a rate of its own follows the robot's.
+  // A bridge without a rate of its own follows the robot's rate.
   to_robot_.receive(now_, client_baud_ ? std::optional(firmware_.baud()) : std::nullopt, heard_);
   if (!passes()) heard_.clear();
 }

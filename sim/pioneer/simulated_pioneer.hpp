@@ -1,5 +1,5 @@
 #pragma once
-// A Pioneer at the end of a serial line: controller, line and their faults, in virtual time.
+// A Pioneer at the end of a serial line: controller, line and faults, in virtual time.
 
 #include <optional>
 #include <vector>
@@ -10,59 +10,59 @@
 
 namespace azimuth::sim {
 
-/// What happened so far, for whoever watches.
+/// Event counts since the start, for observers.
 struct PioneerCounts {
   std::uint64_t bytes_from_client = 0;
   std::uint64_t bytes_to_client = 0;
-  std::uint64_t sips = 0;         ///< put on the line
-  std::uint64_t lost_sips = 0;    ///< by the fault
-  std::uint64_t crowded_out = 0;  ///< packets for which the line had no time
+  std::uint64_t sips = 0;         ///< SIPs sent
+  std::uint64_t lost_sips = 0;    ///< SIPs that a fault made the robot lose
+  std::uint64_t crowded_out = 0;  ///< Packets for which the line had no time
   std::uint64_t reboots = 0;
   friend bool operator==(const PioneerCounts&, const PioneerCounts&) = default;
 };
 
-/// Everything here is a function of the seed and of what the client sends when.
+/// The behaviour is a function of the seed and of what the client sends when.
 ///
 /// Thread contract: thread-bound. Times never decrease from call to call.
 class SimulatedPioneer {
  public:
-  /// `chassis` outlives this.
+  /// `chassis` must outlive this object.
   SimulatedPioneer(const PioneerModel& model, Chassis& chassis, std::uint64_t seed);
 
   // The client's side of the line.
 
-  /// The rate the client's port is set to; nothing: whatever the robot's is, as behind a bridge.
+  /// The baud rate of the client's port; nullopt: always that of the robot, as behind a bridge.
   void set_client_baud(std::optional<int> baud) { client_baud_ = baud; }
   void client_sends(pioneer::ByteView bytes, Stamp now);
-  /// Appends what has reached the client since the last call.
+  /// Appends the bytes that have reached the client since the last call.
   void take_bytes(Bytes& bytes);
-  /// Whether there is a device at all; false while the cable is out.
+  /// Whether the device exists; false while the cable is unplugged.
   bool plugged_in() const { return now_ >= unplugged_until_; }
-  /// Whether anything comes from the robot at present.
+  /// Whether bytes pass at present.
   bool passes() const { return now_ >= silent_until_ && plugged_in(); }
 
   // Time.
 
-  /// When advance() is to be called next, at the latest.
+  /// The latest instant of the next advance().
   Stamp due() const;
   void advance(Stamp now);
 
-  // Faults; those of the controller itself are firmware().quirks.
+  // Faults; the faults of the controller itself are firmware().quirks.
 
-  void set_noise(double flip_probability);  ///< per byte, both directions
-  void set_lost_bytes(double probability);  ///< per byte, both directions
+  void set_noise(double flip_probability);  ///< Per byte, in both directions
+  void set_lost_bytes(double probability);  ///< Per byte, in both directions
   void set_lost_sips(double probability) { lose_sips_ = probability; }
   void reboot(std::uint8_t packet_id);
-  void silence(Duration duration);  ///< nothing passes either way
+  void silence(Duration duration);  ///< Nothing passes in either direction
   void unplug(Duration duration);
-  /// A session is open that its client has left; `baud` is what it had raised the line to.
+  /// Leaves a session open without a client; `baud` is the rate to which the client had raised the line.
   void leave_session_open(std::optional<int> baud);
 
   Chassis& chassis() { return chassis_; }
   Firmware& firmware() { return firmware_; }
   const Firmware& firmware() const { return firmware_; }
   const PioneerCounts& counts() const { return counts_; }
-  /// The true instants of the SIPs since the last call.
+  /// Returns the true instants of the SIPs since the last call.
   std::vector<SipLatch> take_latches();
 
  private:

@@ -6,7 +6,7 @@ namespace azimuth::sim {
 
 std::vector<SonarReading> Sonar::ping(bool all) {
   constexpr std::uint16_t kNothing_mm = 5000;
-  constexpr int kArrays = 2;  // front and rear fire at the same time
+  constexpr int kArrays = 2;  // The front and the rear array fire at the same time
   const int fired = std::min(model_.sonars, kArrays * model_.sip_cycle_ms / model_.sonar_cycle_ms);
   const int count = all ? model_.sonars : (on_ ? fired : 0);
   std::vector<SonarReading> readings;

@@ -1,5 +1,5 @@
 #pragma once
-// Sonar as far as the line is concerned: readings that take up room in SIPs. Nothing is ever in their way.
+// The sonar's effect on the line: readings that take up room in SIPs. There are never any echoes.
 
 #include <vector>
 
@@ -15,7 +15,7 @@ class Sonar {
 
   void switch_on(bool on) { on_ = on; }
   bool on() const { return on_; }
-  /// The new readings of one SIP cycle: those whose turn it was, or all.
+  /// The new readings of one SIP cycle: those whose turn it is, or all.
   std::vector<SonarReading> ping(bool all);
 
  private:

@@ -14,7 +14,7 @@
 namespace azimuth::sim {
 namespace {
 
-/// Clients that try again and again while this program is stopped wait their turn, as with other servers.
+/// Connections that are queued while this program is stopped, as by other servers.
 constexpr int kWaiting = 16;
 
 void switch_on(int fd, int level, int option) {
@@ -62,7 +62,7 @@ void TcpCarrier::turn(Bytes& from_client) {
 
 void TcpCarrier::accept_client() {
   UniqueFd client(::accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
-  if (!client || client_) return;  // a second one is turned away
+  if (!client || client_) return;  // A second client is rejected
   switch_on(client.get(), IPPROTO_TCP, TCP_NODELAY);
   client_ = std::move(client);
 }

@@ -8,10 +8,10 @@
 
 namespace azimuth::sim {
 
-/// The line behind a serial-to-Ethernet bridge, for one client at a time; only programs on this machine can connect.
+/// The line behind a serial-to-Ethernet bridge, for one client at a time. Only programs on this machine can connect.
 class TcpCarrier final : public Carrier {
  public:
-  /// Port 0: the system finds one, which then stays the same from plug to plug.
+  /// Port 0: the system selects one, which is kept from plug to plug.
   explicit TcpCarrier(std::uint16_t port) : port_(port) {}
 
   FileResult<void> plug_in() override;
@@ -23,11 +23,11 @@ class TcpCarrier final : public Carrier {
   bool has_client() const override { return static_cast<bool>(client_); }
   std::optional<int> client_baud() const override { return std::nullopt; }
   std::string address() const override;
-  /// As servers do that have all the clients they want: who connects is refused, until plug_in().
+  /// Refuses new connections until plug_in(), like a server with the greatest number of clients.
   void stop_listening() { listener_ = UniqueFd(); }
-  /// As bridges do that hung: the client's connection stays, and nobody looks at it any more.
+  /// Ignores the connected client, like a bridge that hangs: the connection stays open, but nobody serves it.
   void forget_client() { forgotten_.push_back(std::move(client_)); }
-  /// The port, once plugged in.
+  /// The port; valid once plugged in.
   std::uint16_t port() const { return port_; }
 
  private:

@@ -14,7 +14,7 @@ std::uint16_t position_count(double mm, double mm_per_unit, int bits) {
 
 }  // namespace
 
-/// The whole ticks that passed, in ticks.
+/// Adds a fractional number of ticks; returns the number of whole ticks that passed.
 double WheelCounter::Encoder::advance(double ticks_more) {
   ticks_exact += ticks_more;
   const auto now = static_cast<std::int64_t>(std::floor(ticks_exact));

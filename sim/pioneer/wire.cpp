@@ -37,7 +37,7 @@ void Wire::arrive(const InFlight& byte, std::optional<int> baud, Bytes& received
   received.push_back(byte.byte ^ bit);
 }
 
-/// A faster receiver takes the bits of one byte for several, a slower one those of several for one.
+/// A faster receiver reads the bits of one byte as several bytes, a slower one those of several bytes as one.
 void Wire::garble(const InFlight& byte, int baud, Bytes& received) {
   for (garbage_due_ += static_cast<double>(baud) / byte.baud; garbage_due_ >= 1.0; garbage_due_ -= 1.0) {
     received.push_back(static_cast<std::uint8_t>(random_.index(256)));

@@ -1,5 +1,5 @@
 #pragma once
-// One direction of a serial line: bytes take their time, and some do not arrive as they were.
+// One direction of a serial line: bytes take time, and some arrive damaged or are lost.
 
 #include <chrono>
 #include <cstdint>
@@ -15,11 +15,11 @@ namespace azimuth::sim {
 
 /// Probabilities per byte.
 struct WireNoise {
-  double flip = 0.0;  ///< that one of its bits arrives wrong
-  double lose = 0.0;  ///< that it does not arrive
+  double flip = 0.0;  ///< Probability that one bit of the byte is flipped
+  double lose = 0.0;  ///< Probability that the byte is lost
 };
 
-/// 8N1: a byte takes ten bit times and counts as received when it is whole.
+/// 8N1: a byte takes ten bit times and is received when it is complete.
 ///
 /// Thread contract: thread-bound. Times never decrease from call to call.
 class Wire {
@@ -28,20 +28,21 @@ class Wire {
 
   WireNoise noise;
 
-  /// Bytes handed to the sender at `now`; they leave one after the other behind those before.
+  /// Hands bytes to the sender at `now`; they are sent one after the other, after earlier ones.
   void send(pioneer::ByteView bytes, int baud, Stamp now);
 
-  /// When the next byte will be whole; never is Stamp::max().
+  /// Instant at which the next byte is complete; Stamp::max() if there is none.
   Stamp due() const;
 
-  /// Appends what a receiver at `baud` has made of the bytes that are whole by `now`. At another rate than the sender's
-  /// that is garbage, more of it the faster the receiver; without a rate the receiver follows the sender.
+  /// Appends what a receiver at `baud` makes of the bytes that are complete by `now`. At another rate than the
+  /// sender's, the receiver gets garbage: the higher its rate, the more bytes. Without a rate, the receiver follows the
+  /// sender.
   void receive(Stamp now, std::optional<int> baud, Bytes& received);
 
   std::size_t backlog() const { return bytes_.size(); }
 
  private:
-  using Time = std::chrono::nanoseconds;  // since the start of virtual time; bit times are not whole microseconds
+  using Time = std::chrono::nanoseconds;  // Since the start of virtual time; bit times are not whole microseconds
   struct InFlight {
     std::uint8_t byte;
     int baud;
@@ -53,7 +54,7 @@ class Wire {
   Random random_;
   std::deque<InFlight> bytes_;
   Time free_at_{};
-  double garbage_due_ = 0.0;  // fraction of a garbage byte in the receiver
+  double garbage_due_ = 0.0;  // Fraction of a garbage byte in the receiver
 };
 
 }  // namespace azimuth::sim

@@ -7,9 +7,9 @@ namespace azimuth {
 
 namespace {
 
-constexpr double kNearestToAxis_m = 0.02;  // nearer than that the camera would be inside
+constexpr double kNearestToAxis_m = 0.02;  // At a distance smaller than this the camera would be inside
 
-/// Light from above and all round: the sides of a cylinder look darker than its middle.
+/// Diffuse light from above: the sides of a cylinder look darker than its middle.
 PackedColour shaded(PackedColour paint, float cos_view) { return dim(paint, fraction256(0.7F + 0.3F * cos_view)); }
 
 }  // namespace
@@ -30,7 +30,7 @@ void CylinderPass::place(const Pose2& T_world_camera) {
                       to_float(cylinder.radius_m), to_float(cylinder.low_m - camera_m_),
                       to_float(cylinder.high_m - camera_m_), dim(cylinder.paint, fraction256(to_float(ambient_)))});
   }
-  // Of things on one axis the lower one is painted first: it is the stand below.
+  // Of cylinders on one axis, the lower one (the stand) is painted first.
   std::ranges::sort(views_, [](const View& a, const View& b) {
     return a.distance_m != b.distance_m ? a.distance_m > b.distance_m : a.low_m < b.low_m;
   });
@@ -51,14 +51,15 @@ void CylinderPass::paint(const View& view, const RayTable& rays, std::span<Packe
                     });
 }
 
-/* In the plane: the ray passes the axis at the distance `aside`, having come `along`, and enters the circle at
- * along - s, leaves it at along + s, s^2 = radius^2 - aside^2. Rays just beside the circle count as touching it.
+/* In the plane: the ray passes the axis at the lateral distance `aside`, `along` away from the camera. It enters the
+ * circle at along - s and leaves it at along + s, where s^2 = radius^2 - aside^2. A ray just beside the circle is
+ * treated as touching it.
  */
 float CylinderPass::part_seen(const View& view, const PixelRay& ray, PackedColour& colour) {
   const float along_m = ray.ahead * view.ahead_m + ray.left * view.left_m;
   if (along_m <= 0.0F) return 0.0F;
   const float aside_m = std::abs(ray.ahead * view.left_m - ray.left * view.ahead_m);
-  // Widths as angles: aside / along is the tangent of the angle to the axis.
+  // Widths are angles: aside / along is the tangent of the angle to the axis.
   const float pixel_m = ray.width_per_m * along_m;
   const float sideways = 0.5F + (view.radius_m - aside_m) / pixel_m;
   if (sideways <= 0.0F) return 0.0F;
@@ -66,7 +67,7 @@ float CylinderPass::part_seen(const View& view, const PixelRay& ray, PackedColou
   const float half_chord_m = std::sqrt(std::max(0.0F, view.radius_m * view.radius_m - aside_m * aside_m));
   const float near_m = along_m - half_chord_m, far_m = along_m + half_chord_m;
   const float near_up_m = near_m * ray.slope, far_up_m = far_m * ray.slope, rise_m = near_m * ray.rise_per_m;
-  // Seen from above, the lid reaches from the near edge of the top to its far edge.
+  // From above, the lid is visible from the near edge of the top to its far edge.
   const float topmost_up_m = ray.slope < 0.0F ? far_up_m : near_up_m;
   const float below_top = 0.5F + (view.high_m - topmost_up_m) / rise_m;
   const float above_bottom = 0.5F + (near_up_m - view.low_m) / rise_m;

@@ -9,25 +9,25 @@
 
 namespace azimuth {
 
-/// Paints upright cylinders over what is painted already, the nearer ones over the farther ones. Their outlines are
-/// mixed by what each pixel sees of them, so that they can be found again to a fraction of a pixel.
+/// Paints upright cylinders over the image, farther ones before nearer ones. Pixels on the outline get a mixed colour
+/// by coverage, so that the outline can be measured to a fraction of a pixel.
 ///
 /// Thread contract: thread-bound; nothing allocates after construction.
 class CylinderPass {
  public:
   CylinderPass(const RenderScene& scene, const CameraSpace& space);
 
-  /// Puts the cylinders before the camera.
+  /// Places the cylinders relative to the camera.
   void place(const Pose2& T_world_camera);
-  /// Paints the next `count` of them; false when that was all.
+  /// Paints the next `count` cylinders; returns false when none are left.
   bool paint_next(std::size_t count, const RayTable& rays, std::span<PackedColour> image);
 
  private:
-  /// One cylinder as it stands before the camera.
+  /// One cylinder relative to the camera.
   struct View {
-    float ahead_m, left_m;  ///< its axis
+    float ahead_m, left_m;  ///< Position of the cylinder's axis
     float distance_m;
-    float radius_m, low_m, high_m;  ///< heights above the camera
+    float radius_m, low_m, high_m;  ///< Radius; heights of both ends above the camera
     PackedColour paint;
   };
   static void paint(const View& view, const RayTable& rays, std::span<PackedColour> image);
@@ -35,7 +35,7 @@ class CylinderPass {
 
   std::vector<RenderCylinder> cylinders_;
   double ambient_, camera_m_;
-  std::vector<View> views_;  // the farthest first
+  std::vector<View> views_;  // The farthest first
   std::size_t painted_ = 0;
 };
 

@@ -10,7 +10,7 @@ namespace azimuth {
 
 namespace {
 
-std::uint64_t scrambled(std::uint64_t value) {  // spreads neighbouring numbers over all of them
+std::uint64_t scrambled(std::uint64_t value) {  // Hash that spreads neighbouring numbers over 64 bits
   value = (value ^ (value >> 30U)) * 0xBF58476D1CE4E5B9U;
   value = (value ^ (value >> 27U)) * 0x94D049BB133111EBU;
   return value ^ (value >> 31U);
@@ -33,7 +33,7 @@ void write_three(std::span<const PackedColour> row, const std::int8_t* noise, st
   }
 }
 
-/// BT.601 with all 256 steps in use, as cameras for JPEG give it.
+/// BT.601 with the full range of 256 steps, as JPEG cameras use it.
 void write_422(std::span<const PackedColour> row, const std::int8_t* noise, std::byte* out, std::size_t luma_at) {
   const std::size_t chroma_at = 1 - luma_at;
   for (std::size_t u = 0; u + 1 < row.size(); u += 2) {

@@ -11,26 +11,27 @@
 namespace azimuth {
 
 struct ImageSensorSettings {
-  double noise = 0.0;       ///< standard deviation of each sample, in its 8-bit steps
-  double vignetting = 0.0;  ///< part of the brightness lost at `vignetting_radius_px`, growing with the radius squared
+  double noise = 0.0;  ///< Standard deviation of the noise of each sample, in 8-bit steps
+  /// Part of the brightness lost at `vignetting_radius_px`. The loss grows with the square of the radius.
+  double vignetting = 0.0;
   double vignetting_radius_px = 1.0;
-  std::uint64_t seed = 1;  ///< of the noise
+  std::uint64_t seed = 1;  ///< Seed of the noise
 };
 
-/// Turns light into the bytes of a frame: vignetting, noise, pixel format.
+/// Converts light to the bytes of a frame: vignetting, noise, pixel format.
 ///
 /// Thread contract: thread-bound; nothing allocates after construction.
 class ImageSensor {
  public:
   ImageSensor(const ImageSensorSettings& settings, const ImageAxes& axes, int width_px, int height_px);
 
-  /// gray8, rgb8, bgr8, yuyv and uyvy.
+  /// True for gray8, rgb8, bgr8, yuyv and uyvy.
   static bool can_write(PixelFormat pixels);
 
-  /// Each exposure has noise of its own.
+  /// Begins the next exposure; each has its own noise.
   void begin_exposure() { ++exposures_; }
-  /// Writes rows from `first` up to but not including `last`. `format` must be of the sensor's size with a format that
-  /// it can write, `bytes` large enough for the whole frame.
+  /// Writes rows [first, last). `format` must have the size of the sensor and a writable pixel format; `bytes` must be
+  /// large enough for the whole frame.
   void read_rows(int first, int last, std::span<const PackedColour> image, const FrameFormat& format,
                  std::span<std::byte> bytes);
 
@@ -44,8 +45,8 @@ class ImageSensor {
   std::uint64_t seed_;
   std::uint64_t exposures_ = 0;
   bool vignetting_;
-  std::vector<std::uint16_t> gain_;  // of each pixel, 256: all light
-  std::vector<std::int8_t> noise_;   // longer than kNoiseSamples by the samples of one row
+  std::vector<std::uint16_t> gain_;  // Gain of each pixel; 256 means no loss
+  std::vector<std::int8_t> noise_;   // kNoiseSamples samples, and those of one more row
   std::vector<PackedColour> row_;
 };
 

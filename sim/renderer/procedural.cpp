@@ -10,8 +10,7 @@ namespace {
 
 using Texels = std::vector<PackedColour>;
 
-/// Smooth noise in [-1, 1] that repeats after `side` texels: random values on a coarse grid, interpolated, in several
-/// sizes.
+/// Smooth noise in [-1, 1] with a period of `side` texels: interpolated random values on grids of several cell sizes.
 class Noise {
  public:
   Noise(std::size_t side, Random& random) : side_(side), values_(side * side, 0.0F) {
@@ -79,7 +78,7 @@ void fill_box(Texels& texels, const Box& box, PackedColour ink, bool ellipse) {
   }
 }
 
-/// A line of signs, each a 3 x 5 pattern of its own: what print looks like from a few metres.
+/// Prints a line of signs, each a 3 x 5 dot pattern, which resembles text from a few metres away.
 void print_line(Texels& texels, PackedColour ink, Random& random) {
   const std::size_t dot = 1 + random.index(3);
   const std::size_t top = kBorder + random.index(kPosterSide - 2 * kBorder - 5 * dot);

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures made of nothing but a seed: same seed, same texels.
+// Procedural textures: the same seed gives the same texels.
 
 #include <cstdint>
 
@@ -10,10 +10,10 @@ namespace azimuth {
 /// Square tiles of 0.5 m with grain and stains.
 Texture floor_texture(std::uint64_t seed);
 
-/// A painted wall: nearly even, with faint blotches.
+/// A painted wall: nearly uniform, with faint blotches.
 Texture plaster_texture(std::uint64_t seed);
 
-/// Something printed: strong edges and corners of all sizes, each seed another one, inside an even border.
+/// A printed poster: strong edges and corners of all sizes, different for each seed, inside a uniform border.
 Texture poster_texture(std::uint64_t seed, double side_m);
 
 }  // namespace azimuth

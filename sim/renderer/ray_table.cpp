@@ -8,16 +8,16 @@ namespace azimuth {
 
 namespace {
 
-constexpr double kSteepest_rad = kPi / 2 - 1e-3;  // keeps slopes finite
+constexpr double kSteepest_rad = kPi / 2 - 1e-3;  // Keeps slopes finite
 
-/* With e the elevation, t = tan e, d the horizontal distance, h the height of a plane above the camera:
- *   upright things at d:  z = d t        dz = d (1 + t^2) de
- *   the plane:            d = h / t      dd = d (1 + t^2) / |t| de      and d da to the side
+/* With the elevation e, t = tan e, the horizontal distance d and the height h of a plane above the camera:
+ *   upright objects at d: z = d t        dz = d (1 + t^2) de
+ *   the plane:            d = h / t      dd = d (1 + t^2) / |t| de      and d da sideways
  */
 PixelRay ray_of(const Direction& seen, const Eigen::Matrix2d& jacobian, const CameraSpace& space) {
   const double slope = std::tan(std::clamp(seen.elevation_rad, -kSteepest_rad, kSteepest_rad));
   const double plane_m = slope > 0.0 ? space.ceiling_m - space.camera_m : -space.camera_m;
-  const double distance_m = std::min(plane_m / slope, 1e6);  // along the horizon: never
+  const double distance_m = std::min(plane_m / slope, 1e6);  // Rays along the horizon never meet it
   const double wide_rad = jacobian.row(0).norm(), high_rad = jacobian.row(1).norm();
   const double rise = (1.0 + slope * slope) * high_rad;
   const double depth_m = distance_m * rise / std::max(std::abs(slope), 1e-9);

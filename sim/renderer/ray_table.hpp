@@ -8,28 +8,28 @@
 
 namespace azimuth {
 
-/// Pixels are drawn in single precision.
+/// Rendering uses single precision.
 constexpr float to_float(double value) { return static_cast<float>(value); }
 
-/// What one pixel looks at, as far as it does not depend on where the robot is. Kept small: a whole image of these is
-/// read for every frame.
+/// The ray of one pixel, as far as it does not depend on the robot's pose. Kept small, since each frame reads the rays
+/// of all pixels.
 struct PixelRay {
-  float ahead = 1.0F, left = 0.0F;  ///< horizontal direction from the camera, unit length
-  float slope = 0.0F;               ///< rise over horizontal distance
-  float plane_distance_m = 0.0F;    ///< horizontal distance at which it meets floor or ceiling
-  float plane_depth_m = 0.0F;       ///< how far what it sees of that plane reaches away from the camera
-  float rise_per_m = 0.0F;          ///< height it sees of something upright, per metre of distance
-  float width_per_m = 0.0F;         ///< width, likewise
-  std::uint32_t pixel = 0;          ///< row by row
+  float ahead = 1.0F, left = 0.0F;  ///< Horizontal unit direction from the camera
+  float slope = 0.0F;               ///< Rise over horizontal distance
+  float plane_distance_m = 0.0F;    ///< Horizontal distance at which the ray meets floor or ceiling
+  float plane_depth_m = 0.0F;       ///< Extent of the pixel's area on that plane, away from the camera
+  float rise_per_m = 0.0F;          ///< Height of the pixel's area on an upright object, per metre of distance
+  float width_per_m = 0.0F;         ///< Width of that area, per metre of distance
+  std::uint32_t pixel = 0;          ///< Index of the pixel, row by row
 };
 
-/// Heights of what all rays of a camera may meet.
+/// Heights of the planes that rays can meet.
 struct CameraSpace {
-  double camera_m = 1.0;   ///< the viewpoint above the floor
-  double ceiling_m = 3.0;  ///< above the floor
+  double camera_m = 1.0;   ///< Height of the viewpoint above the floor
+  double ceiling_m = 3.0;  ///< Height of the ceiling above the floor
 };
 
-/// The rays of all pixels that a mask leaves visible, row by row, and an index of them by azimuth.
+/// The rays of all pixels that the mask leaves visible, row by row, with an index by azimuth.
 ///
 /// Thread contract: reentrant.
 class RayTable {
@@ -38,7 +38,7 @@ class RayTable {
 
   std::span<const PixelRay> rays() const { return rays_; }
 
-  /// Calls use(ray) for each ray whose azimuth is within `half_width_rad` of `azimuth_rad`, and some beyond.
+  /// Calls use(ray) for each ray whose azimuth is within `half_width_rad` of `azimuth_rad`, and for some others.
   template <class Use>
   void near_azimuth(double azimuth_rad, double half_width_rad, const Use& use) const {
     if (half_width_rad >= kPi) half_width_rad = kPi;
@@ -50,7 +50,7 @@ class RayTable {
     }
   }
 
-  /// The widest angle that one pixel covers.
+  /// The greatest angle that one pixel covers.
   double widest_pixel_rad() const { return widest_pixel_rad_; }
 
  private:

@@ -7,7 +7,7 @@ namespace azimuth {
 
 namespace {
 
-constexpr double kWallDistance_m = 0.5;  // of the room's walls from everything in it
+constexpr double kWallDistance_m = 0.5;  // Distance of the room's walls from all its contents
 constexpr double kStandRadius_m = 0.015;
 constexpr PackedColour kStandPaint = colour(40, 40, 42);
 
@@ -25,7 +25,7 @@ Rectangle room_round(const Scenario& scenario) {
   return room;
 }
 
-/// The paint whose nearest cylinder is farthest away.
+/// The colour whose nearest cylinder is farthest away.
 PackedColour paint_for(const Eigen::Vector2d& place, const std::vector<RenderCylinder>& standing) {
   std::array<double, kPaints.size()> nearest_m{};
   nearest_m.fill(std::numeric_limits<double>::max());

@@ -7,9 +7,9 @@ namespace azimuth {
 
 namespace {
 
-constexpr PackedColour kNothing = colour(6, 6, 6);  // robot, mounting and what lies beyond the mirror's rim
+constexpr PackedColour kNothing = colour(6, 6, 6);  // Robot, mounting and the area beyond the mirror's rim
 
-// About a millisecond each.
+// Each step takes about a millisecond.
 constexpr std::size_t kRaysPerStep = 20'000, kCylindersPerStep = 4;
 constexpr int kRowsPerStep = 128;
 
@@ -84,7 +84,7 @@ bool Renderer::step(const FrameView& out) {
   return stage_ == Stage::whole;
 }
 
-// Each returns whether there is more to do.
+// The stages return whether there is more to do.
 
 bool Renderer::paint_room() {
   const std::size_t count = std::min(kRaysPerStep, rays_.rays().size() - rays_painted_);

@@ -16,48 +16,48 @@
 
 namespace azimuth {
 
-/// A camera on the robot, as far as its directions do not say.
+/// A camera on the robot: its model and the properties that the model does not contain.
 struct RenderCamera {
   CameraModel model;
   int width_px = 1024;
   int height_px = 768;
-  MaskShape mask;         ///< the ring shows the world; robot and mounting are black inside it
-  double height_m = 1.0;  ///< of the viewpoint above the floor
-  Pose2 T_body_camera;    ///< where the viewpoint is on the robot, and its zero azimuth
+  MaskShape mask;         ///< The ring shows the world; robot and mounting are black inside it
+  double height_m = 1.0;  ///< Height of the viewpoint above the floor
+  Pose2 T_body_camera;    ///< Viewpoint on the robot, and the camera's zero azimuth
   ImageSensorSettings sensor;
 };
 
-/// Where a frame is to be written.
+/// The destination of a frame.
 struct FrameView {
   FrameFormat format;
   std::span<std::byte> bytes;
 };
 
-/// Renders what a robot's omnidirectional camera sees, fast enough for a live camera on part of one core.
+/// Renders the images of a robot's omnidirectional camera, at the rate of a live camera on a part of one core.
 ///
-/// Rays are taken from the camera's model pixel by pixel, so a frame agrees with the model exactly. Same scene, camera
-/// and sequence of poses: same bytes.
+/// Each pixel's ray comes from the camera model, so a frame agrees with the model exactly. The same scene, camera and
+/// sequence of poses give the same bytes.
 ///
-/// A frame can be made at once or, by a process that has other things to do meanwhile, step by step.
+/// A frame can be rendered at once or in steps.
 ///
 /// Thread contract: thread-bound; nothing allocates after construction.
 class Renderer {
  public:
-  /// Why a camera cannot be rendered in this scene; nothing: it can.
+  /// The reason why the camera cannot be rendered in this scene; nullopt if it can.
   static std::optional<std::string_view> problem(const RenderScene& scene, const RenderCamera& camera);
 
-  /// Only what has no problem.
+  /// problem() must return nullopt for these arguments.
   Renderer(const RenderScene& scene, const RenderCamera& camera);
 
-  /// Whether render() can write frames like this.
+  /// Whether render() can write frames of this format.
   bool can_write(const FrameFormat& format) const;
 
-  /// The frame seen from `T_world_body`; a camera that is beyond a wall sees what it would just inside. `out` must be
-  /// writable as can_write() and large enough.
+  /// Renders the frame seen from `T_world_body`. A camera beyond a wall sees what it would see just inside. `out` must
+  /// pass can_write() and be large enough.
   void render(const Pose2& T_world_body, const FrameView& out);
 
-  /// The same in steps of about a millisecond: after begin(), until step() says that the frame is whole. `out` must be
-  /// the same for all steps of a frame.
+  /// Renders a frame in steps of about a millisecond: call begin(), then step() until it returns true, which means that
+  /// the frame is complete. `out` must be the same in all steps of a frame.
   void begin(const Pose2& T_world_body);
   bool step(const FrameView& out);
 
@@ -75,7 +75,7 @@ class Renderer {
   RoomPass room_;
   CylinderPass cylinders_;
   ImageSensor sensor_;
-  std::vector<PackedColour> image_;  // black where no ray comes from, once and for all
+  std::vector<PackedColour> image_;  // Pixels without a ray stay black
   Pose2 T_world_camera_;
   Stage stage_ = Stage::whole;
   std::size_t rays_painted_ = 0;

@@ -7,8 +7,8 @@
 
 namespace azimuth {
 
-/// The camera that rig.toml describes: model, mask, height and yaw. Nothing, and why in `problem`, when it describes no
-/// image camera or one with parameters that make none.
+/// The camera that rig.toml describes: model, mask, height and yaw. Returns nullopt, and the reason in `problem`, if
+/// the rig describes no image camera or its parameters are not valid.
 std::optional<RenderCamera> render_camera_of(const CameraRig& rig, std::string& problem);
 
 }  // namespace azimuth

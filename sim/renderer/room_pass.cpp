@@ -43,7 +43,8 @@ Surface make_ceiling(const RenderScene& scene) {
 
 }  // namespace
 
-// Light comes from the middle of the ceiling, but a little more from the east: no two neighbouring walls look the same.
+// The walls have different brightness, with a little more light from the east, so that no two neighbouring walls look
+// alike.
 RoomPass::RoomPass(const RenderScene& scene, const CameraSpace& space)
     : floor_(floor_texture(scene.seed * 8), {}, brightness_of(scene, 1.0)),
       ceiling_(make_ceiling(scene)),
@@ -68,7 +69,7 @@ void RoomPass::paint(std::span<const PixelRay> rays, const Pose2& T_world_camera
   for (const PixelRay& ray : rays) image[ray.pixel] = seen_by(ray, view);
 }
 
-/// East and north are the world's; a ray along a wall never meets it, at an infinite distance.
+/// `east` and `north` are the ray's components in the world. A ray parallel to a wall meets it at infinite distance.
 RoomPass::WallHit RoomPass::hit_wall(float east, float north, const View& view) const {
   const float to_x_m = (east > 0.0F ? high_x_m_ - view.x_m : view.x_m - low_x_m_) / std::abs(east);
   const float to_y_m = (north > 0.0F ? high_y_m_ - view.y_m : view.y_m - low_y_m_) / std::abs(north);
@@ -82,8 +83,8 @@ PackedColour RoomPass::wall_colour(const PixelRay& ray, const WallHit& hit, floa
   return walls_[static_cast<std::size_t>(hit.wall)].at(hit.across_m, up_m, width_m, rise_m);
 }
 
-/// Far away a pixel sees a strip of the plane that is longer than it is wide: the rectangle along the axes with the
-/// same moments stands for it.
+/// Far away, a pixel covers a strip of the plane that is longer than it is wide. It is approximated by the
+/// axis-parallel rectangle with the same moments.
 PackedColour RoomPass::plane_colour(const PixelRay& ray, float east, float north, const View& view) const {
   const float x_m = view.x_m + ray.plane_distance_m * east, y_m = view.y_m + ray.plane_distance_m * north;
   const float depth_m = ray.plane_depth_m, side_m = ray.plane_distance_m * ray.width_per_m;
@@ -93,7 +94,7 @@ PackedColour RoomPass::plane_colour(const PixelRay& ray, float east, float north
       .at(x_m, y_m, std::sqrt(east2 * depth_m2 + north2 * side_m2), std::sqrt(north2 * depth_m2 + east2 * side_m2));
 }
 
-/// Near the edge between wall and floor or ceiling a pixel sees some of both.
+/// Near the edge between wall and floor or ceiling, a pixel covers parts of both.
 PackedColour RoomPass::seen_by(const PixelRay& ray, const View& view) const {
   const float east = view.cos * ray.ahead - view.sin * ray.left, north = view.sin * ray.ahead + view.cos * ray.left;
   const WallHit hit = hit_wall(east, north, view);

@@ -16,14 +16,14 @@ class RoomPass {
  public:
   RoomPass(const RenderScene& scene, const CameraSpace& space);
 
-  /// Paints every ray's pixel. The camera must be inside the room.
+  /// Paints the pixel of every ray. The camera must be inside the room.
   void paint(std::span<const PixelRay> rays, const Pose2& T_world_camera, std::span<PackedColour> image) const;
 
   /// The nearest point to `position` that is well inside the room.
   Eigen::Vector2d inside(const Eigen::Vector2d& position) const;
 
  private:
-  /// The camera in the room, in what paint() needs of it.
+  /// The camera's pose in the room, in the form that paint() needs.
   struct View {
     float cos, sin, x_m, y_m;
   };
@@ -37,7 +37,7 @@ class RoomPass {
   PackedColour plane_colour(const PixelRay& ray, float east, float north, const View& view) const;
 
   Surface floor_, ceiling_;
-  std::array<Surface, 4> walls_;  // by Wall
+  std::array<Surface, 4> walls_;  // Indexed by Wall
   float low_x_m_, low_y_m_, high_x_m_, high_y_m_, camera_m_, ceiling_m_;
 };
 

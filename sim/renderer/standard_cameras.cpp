@@ -17,7 +17,7 @@ ImageRig common_image() {
   image.height_px = 768;
   image.centre_px = {511.5, 383.5};
   image.azimuth_direction = -1;
-  image.azimuth_offset_rad = -kPi / 2;  // heading is up in the image
+  image.azimuth_offset_rad = -kPi / 2;  // The heading points up in the image
   return image;
 }
 
@@ -30,7 +30,7 @@ CameraRig mirror() {
   return rig;
 }
 
-/// r = 2 * 119.2 px * theta, very nearly: 1.57 rad lie 374 px from the centre.
+/// Very nearly r = 2 * 119.2 px * theta: 1.57 rad lie 374 px from the centre.
 CameraRig fisheye() {
   CameraRig rig{.model = PajdlaRig{.a_px = 11920.0, .b = 100.0, .c_px = 11920.0, .d = 100.0}, .image = common_image()};
   rig.image.viewpoint_height_m = 1.8;
@@ -50,7 +50,7 @@ CameraRig scaled(CameraRig rig, double factor) {
   ImageRig& image = rig.image;
   for (std::optional<int>* const side : {&image.width_px, &image.height_px})
     if (*side) **side = std::max(1, static_cast<int>(std::lround(**side * factor)));
-  // A pixel's coordinates are those of its middle, so the image's corner lies at -0.5.
+  // Pixel coordinates refer to pixel centres, so the image's corner is at -0.5.
   if (image.centre_px)
     for (double& coordinate : *image.centre_px) coordinate = (coordinate + 0.5) * factor - 0.5;
   for (std::optional<double>* const length : {&image.mask_inner_px, &image.mask_outer_px})
@@ -66,7 +66,7 @@ std::string image_camera_toml(const CameraRig& rig) {
   std::string text =
       fmt::format("front_end = \"{}\"\n\n[camera]\nmodel = \"{}\"\n", is_fisheye ? "lamps" : "colour", name(rig.model));
   const auto add = [&text](std::string_view key, const std::optional<double>& value) {
-    if (value) text += fmt::format("{} = {:#}\n", key, *value);  // with a decimal point, as TOML wants its floats
+    if (value) text += fmt::format("{} = {:#}\n", key, *value);  // With a decimal point, which TOML requires for floats
   };
   text += fmt::format("width_px = {}\nheight_px = {}\n", image.width_px.value_or(0), image.height_px.value_or(0));
   const PixelPoint centre = image.centre_px.value_or(PixelPoint{});

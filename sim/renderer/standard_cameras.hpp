@@ -1,5 +1,5 @@
 #pragma once
-// The cameras that a simulated robot can carry, described as in rig.toml.
+// The standard cameras of a simulated robot, described as in rig.toml.
 
 #include <array>
 #include <optional>
@@ -15,10 +15,10 @@ namespace azimuth {
 std::optional<CameraRig> standard_camera(std::string_view name);
 inline constexpr std::array<std::string_view, 2> kStandardCameras{"mirror", "fisheye"};
 
-/// The same camera with an image of `factor` times the size, whole pixels at least: what sees the same in other pixels.
+/// The camera `rig` with an image of `factor` times the size, rounded to whole pixels.
 CameraRig scaled(CameraRig rig, double factor);
 
-/// The camera's part of rig.toml, with front end: what a daemon needs to know to read the images.
+/// The camera's part of rig.toml, including the front end.
 std::string image_camera_toml(const CameraRig& rig);
 
 }  // namespace azimuth

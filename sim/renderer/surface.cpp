@@ -6,11 +6,11 @@ namespace azimuth {
 
 namespace {
 
-constexpr float kMargin_m = 0.5F;  // about each decal, for pixels that see part of it
+constexpr float kMargin_m = 0.5F;  // Around each decal, for pixels that cover a part of it
 constexpr std::size_t kOutside = std::numeric_limits<std::size_t>::max();
 
-/// Of an interval `width` long about `at`, the part that lies between low and high. What would reach beyond the margin
-/// is taken to end there.
+/// The share of an interval of length `width` about `at` that lies between `low` and `high`. The width is limited to
+/// the margin on either side.
 float covered(float at, float width, float low, float high) {
   width = std::min(width, 2.0F * kMargin_m);
   const float inside = std::min(high, at + 0.5F * width) - std::max(low, at - 0.5F * width);

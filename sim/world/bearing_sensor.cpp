@@ -7,7 +7,7 @@
 namespace azimuth {
 namespace {
 
-/// Azimuth in the camera's frame, or nothing when the landmark is out of sight.
+/// Azimuth in the camera's frame; nullopt if the landmark is not visible.
 std::optional<double> azimuth_of(const WorldLandmark& landmark, const Pose2& T_world_body,
                                  const BearingSensorSettings& settings) {
   const Eigen::Vector2d p_camera = inverse(T_world_body) * landmark.p_world_landmark_m - settings.position_m;
@@ -25,7 +25,7 @@ Bearing make_bearing(double azimuth_rad, Identity identity) {
   return bearing;
 }
 
-/// The name on a false detection: one that this image does not carry already, if there is any left.
+/// The identity of a false detection: one that this image does not contain yet, if any is left.
 Identity misread(const std::vector<WorldLandmark>& landmarks, const std::vector<Bearing>& seen, Random& random) {
   std::vector<Identity> free;
   for (const WorldLandmark& landmark : landmarks) {

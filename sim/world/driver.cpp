@@ -12,7 +12,7 @@ double direction(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
   return std::atan2(to.y() - from.y(), to.x() - from.x());
 }
 
-/// A path as a curve of its length.
+/// A path parametrised by its length.
 class Polyline {
  public:
   explicit Polyline(const Path& path) {
@@ -49,7 +49,7 @@ class Polyline {
   }
 
   std::vector<Eigen::Vector2d> corners_;
-  std::vector<double> lengths_m_;  // from the start to each corner
+  std::vector<double> lengths_m_;  // From the start to each corner
 };
 
 class StepDriver final : public Driver {
@@ -94,9 +94,9 @@ class SmoothDriver final : public Driver {
     if (at_end && (distance_m < kArrived_m || std::abs(off_rad) > kPi / 2)) return std::nullopt;
 
     set_speed(off_rad, path_.length_m() - carrot_m_ + distance_m);
-    // Pure pursuit: the arc that is tangent to the heading and meets the carrot.
+    // Pure pursuit: the arc that is tangent to the heading and meets the target point on the path.
     const double curvature_per_m = 2.0 * std::sin(off_rad) / std::max(distance_m, settings_.look_ahead_m / 2);
-    // A target behind the robot would give no curvature: turn towards it as fast as allowed.
+    // A target behind the robot has no useful curvature, so the robot turns towards it at the maximum rate.
     const double wanted_rate =
         std::abs(off_rad) > kPi / 2 ? std::copysign(INFINITY, off_rad) : speed_ * curvature_per_m;
     const double limit = settings_.max_turn_rate_rad_per_s;
@@ -107,7 +107,7 @@ class SmoothDriver final : public Driver {
  private:
   static constexpr double kArrived_m = 0.02;
 
-  /// The carrot runs ahead of the robot along the path and never comes back.
+  /// Moves the target point ahead of the robot along the path; it never moves back.
   void move_carrot(const Eigen::Vector2d& position) {
     constexpr double kStep_m = 0.005;
     while (carrot_m_ < path_.length_m() && (path_.point(carrot_m_) - position).norm() < settings_.look_ahead_m)
@@ -115,7 +115,7 @@ class SmoothDriver final : public Driver {
   }
 
   void set_speed(double off_rad, double to_go_m) {
-    const double turning = std::max(0.15, std::cos(off_rad));  // slow down where the path bends
+    const double turning = std::max(0.15, std::cos(off_rad));  // Slows down where the path bends
     const double stopping = std::sqrt(2.0 * settings_.acceleration_m_per_s2 * to_go_m);
     const double wanted = std::min(settings_.speed_m_per_s * turning, stopping);
     const double most = settings_.acceleration_m_per_s2 * settings_.tick_s;

@@ -1,6 +1,6 @@
 #pragma once
-// How the simulated robot gets along its path. A driver knows where the robot really is and steers by it, as a person
-// with a joystick would; what it never sees is the estimate.
+// How the simulated robot follows its path. A driver knows the robot's true pose and steers by it, as a person with a
+// joystick would. It never sees the estimate.
 
 #include <cstddef>
 #include <memory>
@@ -13,16 +13,16 @@
 
 namespace azimuth {
 
-/// Stop and go: turn, drive straight, turn, take a picture (SPEC I.15, experiment 1).
+/// Stop and go: turn, drive straight, turn, take an image (mathematics I.15, experiment 1).
 struct StepDrive {
   int steps = 36;
-  double step_m = 1.0;             ///< along the path, from stop to stop; the path is driven round again when it ends
-  double period_s = 1.0;           ///< time from stop to stop
-  double sigma_aim_m = 0.1;        ///< each stop lies beside the path by about this much, in x and in y
-  double sigma_heading_rad = 0.1;  ///< and the robot faces off the direction of the path by about this much
+  double step_m = 1.0;             ///< Distance from stop to stop along the path, which is repeated at its end
+  double period_s = 1.0;           ///< Time from stop to stop
+  double sigma_aim_m = 0.1;        ///< Standard deviation of each stop's offset from the path, in x and in y
+  double sigma_heading_rad = 0.1;  ///< Standard deviation of the heading about the direction of the path
 };
 
-/// A differential drive that never stops before the end: pure pursuit with limited speed, acceleration and turn rate.
+/// A differential drive that does not stop before the end: pure pursuit with limited speed, acceleration and turn rate.
 struct SmoothDrive {
   double speed_m_per_s = 0.5;
   double acceleration_m_per_s2 = 0.4;
@@ -43,9 +43,9 @@ Pose2 displacement(const Control& control);
 class Driver {
  public:
   virtual ~Driver() = default;
-  /// Where the drive begins, facing along the path.
+  /// The start pose of the drive, facing along the path.
   virtual Pose2 start() const = 0;
-  /// The control for the next tick of a robot that is at `T_world_body`; nothing when the drive is over.
+  /// The control for the next tick of a robot at `T_world_body`; nullopt when the drive is over.
   virtual std::optional<Control> next(const Pose2& T_world_body) = 0;
 };
 

@@ -15,7 +15,7 @@ std::uint64_t stream_seed(std::uint64_t seed, RandomPurpose purpose) {
 Random::Random(std::uint64_t seed, RandomPurpose purpose)
     : RandomNumbers(std::mt19937_64(stream_seed(seed, purpose))) {}
 
-// Knuth's product of uniforms.
+// Knuth's product of uniform numbers.
 int Random::poisson(double mean) {
   const double limit = std::exp(-mean);
   int count = 0;

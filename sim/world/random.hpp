@@ -7,8 +7,8 @@
 
 namespace azimuth {
 
-/// What a stream of random numbers is used for. Each purpose draws from its own stream, so that changing the clutter
-/// rate of a scenario changes neither its odometry noise nor its landmarks.
+/// The purpose of a stream of random numbers. Each purpose has its own stream, so that for example the clutter rate of
+/// a scenario affects neither its odometry noise nor its landmarks.
 enum class RandomPurpose : std::uint64_t { scene = 1, drive = 2, odometry = 3, bearings = 4, line = 5, gyro = 6 };
 
 /// Random numbers that are the same on every platform.
@@ -19,9 +19,9 @@ class Random : public RandomNumbers<std::mt19937_64> {
   Random(std::uint64_t seed, RandomPurpose purpose);
 
   bool chance(double probability) { return uniform() < probability; }
-  /// Poisson distributed; `mean` at least 0 and small (cost grows with it).
+  /// Poisson distributed; `mean` must not be negative and should be small, since the cost grows with it.
   int poisson(double mean);
-  /// In [0, count); `count` positive.
+  /// Uniformly distributed in [0, count); `count` must be positive.
   std::size_t index(std::size_t count);
 };
 

@@ -5,9 +5,9 @@
 namespace azimuth {
 namespace {
 
-constexpr double kMeasured = 0.01;  // as with a tape
+constexpr double kMeasured = 0.01;  // Uncertainty of a tape measurement
 
-/// As TOML wants its floats: never without a decimal point or an exponent.
+/// A number as a TOML float: with a decimal point or an exponent.
 std::string number(double value) {
   const std::string text = fmt::format("{}", value);
   return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;

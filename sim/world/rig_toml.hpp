@@ -6,9 +6,9 @@
 
 namespace azimuth {
 
-/// The rig.toml of the simulated robot: its noise and calibration are exactly those of the scenario.
+/// The rig.toml of the simulated robot, with exactly the noise and calibration of the scenario.
 std::string rig_toml(const Scenario& scenario);
-/// The same with another camera; `camera_text` says `front_end` and the table [camera].
+/// The rig.toml of the simulated robot with another camera; `camera_text` contains `front_end` and the table [camera].
 std::string rig_toml(const Scenario& scenario, std::string_view camera_text);
 
 }  // namespace azimuth

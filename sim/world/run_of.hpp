@@ -4,10 +4,10 @@
 
 namespace azimuth {
 
-/// Lengths are recorded to the micrometre, times and angles to a millionth.
+/// Rounds as in recordings: lengths to the micrometre, times and angles to a millionth.
 double recorded(double value);
 
-/// What a run in that world knows before it begins: its name, its rig.toml and where the landmarks are.
+/// The part of a run that is known in advance: its name, its rig.toml and the landmarks' positions.
 Run run_of(const Scenario& scenario);
 
 }  // namespace azimuth

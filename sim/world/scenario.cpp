@@ -7,9 +7,9 @@ constexpr Sampling kOnceAStop{1.0, 1.0, 0.0, 1.0};
 
 const Rectangle kLabRoom{{0.5, 0.5}, {13.5, 9.5}};
 const Rectangle kLabBlock{{2.0, 2.0}, {12.0, 8.0}};
-constexpr int kStopsALap = 32;  // round that block, one a metre
+constexpr int kStopsALap = 32;  // Round that block, one metre apart
 
-/// An indoor robot whose wheels are good and whose heading is not.
+/// An indoor robot with good wheels and a poor heading.
 OdometerSettings indoor_odometer() {
   OdometerSettings odometer;
   odometer.lambda_distance_m = 4e-4;         // (2 cm)^2 / m
@@ -39,7 +39,7 @@ Scenario coloured_lab(std::uint64_t seed, int laps) {
   scenario.path = laps_round(kLabBlock, laps);
   Random random(seed, RandomPurpose::scene);
   scenario.landmarks = scatter(kLabRoom, 24, Spacing{0.8, 0.4}, scenario.path, random);
-  scenario.sensor.min_range_m = 0.7;  // nearer ones stand in the mirror's masked inner disc
+  scenario.sensor.min_range_m = 0.7;  // Nearer landmarks are in the mirror's masked inner disc
   StepDrive drive;
   drive.steps += (laps - 1) * kStopsALap;
   scenario.drive = drive;

@@ -7,9 +7,9 @@
 namespace azimuth {
 namespace {
 
-// Adding 0 makes -0 a plain 0.
+// Adding 0 turns -0 into 0.
 double rounded(double length_m) { return std::round(length_m * 1e6) / 1e6 + 0.0; }
-/// Towards zero, so that an angle just inside [-pi, pi) stays there.
+/// Rounds towards zero, so that an angle just inside [-pi, pi) stays there.
 double rounded_angle(double angle_rad) { return std::trunc(angle_rad * 1e6) / 1e6 + 0.0; }
 
 Pose2 rounded(const Pose2& pose) { return {rounded(pose.x_m), rounded(pose.y_m), rounded_angle(pose.heading_rad)}; }

@@ -61,12 +61,13 @@ bool Assignment::solve_loaded() {
   return std::ranges::all_of(waiting_, [this](int row) { return augment(row); });
 }
 
-/// Each row takes its cheapest column and makes it dearer for the others by what its own next best choice costs more
-/// (the augmenting row reduction of Jonker & Volgenant); who held that column chooses again. Leaves few rows waiting.
+/// Augmenting row reduction of Jonker & Volgenant: each row takes its cheapest column and raises the column's price by
+/// the difference to its own second-best choice. The previous holder of that column chooses again. Few rows stay
+/// unassigned.
 void Assignment::take_cheapest() {
   fit(waiting_, rows_, 0);
   waiting_.clear();
-  std::size_t turns = 4 * rows_;  // else ties could be passed on for ever
+  std::size_t turns = 4 * rows_;  // limit, since rows with equal costs could displace each other for ever
   for (std::size_t r = 0; r < rows_; ++r) {
     int row = static_cast<int>(r);
     while (row != kUnassigned) {
@@ -102,7 +103,7 @@ Assignment::Choice Assignment::choose(int row) const {
   return choice;
 }
 
-/// The column's former holder, or kUnassigned.
+/// Gives the column to the row. Returns the column's previous holder, or kUnassigned.
 int Assignment::give(int column, int row) {
   const int holder = std::exchange(row_of_[as_size(column)], row);
   column_of_[as_size(row)] = column;
@@ -117,7 +118,7 @@ bool Assignment::augment(int row) {
   return true;
 }
 
-/// Dijkstra over reduced costs from `row` to the nearest free column, or to a row that is better left alone.
+/// Dijkstra over reduced costs from `row` to the nearest free column, or to a row for which staying alone is cheaper.
 bool Assignment::find_path(int row) {
   start_search();
   for (int from = row;;) {
@@ -149,7 +150,8 @@ void Assignment::start_search() {
   length_ = 0.0;
 }
 
-/// Takes a row into the tree. The nearest of the open columns leaves them and is returned; kUnassigned: there is none.
+/// Adds a row to the tree. Removes the nearest open column from the open ones and returns it; kUnassigned: there is
+/// none.
 int Assignment::scan(int row) {
   tree_rows_.push_back(row);
   const double base = length_ - of_row_[as_size(row)];
@@ -168,7 +170,7 @@ int Assignment::scan(int row) {
       reached_from_[c] = row;
     }
     if (distance_[c] > nearest || (distance_[c] == nearest && row_of_[c] != kUnassigned)) continue;
-    nearest = distance_[c];  // of equally near columns a free one, which ends the search
+    nearest = distance_[c];  // of equally near columns prefer a free one, which ends the search
     nearest_at = k;
   }
   if (nearest == kForbidden) return kUnassigned;

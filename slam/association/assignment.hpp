@@ -1,5 +1,5 @@
 #pragma once
-// The linear assignment problem: which row takes which column so that the sum of the costs is best.
+// The linear assignment problem: assigns columns to rows so that the sum of the costs is optimal.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,8 +10,8 @@ namespace azimuth {
 
 enum class Objective : std::uint8_t { minimise, maximise };
 
-/// Row-major values of one pairing each. An entry of +infinity (to be minimised) or -infinity (to be maximised) is
-/// gated: the pair is forbidden. No entry is NaN.
+/// One value per pair (row, column), row-major. An entry of +infinity (when minimising) or -infinity (when maximising)
+/// forbids the pair. No entry may be NaN.
 struct PairingTable {
   std::span<const double> values;
   std::size_t rows = 0;
@@ -20,26 +20,27 @@ struct PairingTable {
 
 inline constexpr int kUnassigned = -1;
 
-/// Solved exactly by shortest augmenting paths (Jonker & Volgenant 1987, rectangular as Crouse 2016), in at most
+/// Exact solver by shortest augmenting paths (Jonker & Volgenant 1987, rectangular as in Crouse 2016), in at most
 /// rows^2 * columns steps. Deterministic.
 ///
 /// Thread contract: thread-bound; does not allocate once its workspace has grown to the largest problem.
 class Assignment {
  public:
-  /// Every row takes a column of its own or, where rows outnumber columns, every column a row. `column_of_row` gets a
-  /// column or kUnassigned for each row. False: gated entries make that impossible; then the outcome is left undefined.
+  /// Assigns a distinct column to every row or, where rows outnumber columns, a distinct row to every column.
+  /// `column_of_row` gets a column or kUnassigned for each row. Returns false, with the outcome undefined, if forbidden
+  /// pairs make that impossible.
   bool solve(const PairingTable& table, Objective objective, std::vector<int>& column_of_row);
 
-  /// A row may also stay without a column, at a value of its own: one finite entry of `alone` for each row. That is
-  /// always possible.
+  /// Variant in which a row may stay without a column at a value of its own: `alone` has one finite entry per row. This
+  /// always has a solution.
   void solve(const PairingTable& table, std::span<const double> alone, Objective objective,
              std::vector<int>& column_of_row);
 
  private:
-  /// The cheapest of a row's columns, by reduced cost, and the next best.
+  /// The cheapest column of a row by reduced cost, and the second-best cost.
   struct Choice {
     double cost, second;
-    int column;  // kUnassigned: none is cheaper than staying alone
+    int column;  // kUnassigned: no column is cheaper than staying alone
   };
   void load(const PairingTable& table, Objective objective, bool transposed);
   bool solve_loaded();
@@ -53,25 +54,25 @@ class Assignment {
   void move_potentials(int row);
   void flip_path(int row);
 
-  // The loaded problem, to be minimised; rows do not outnumber columns unless they may stay alone.
+  // The loaded problem, in the form of a minimisation. Rows do not outnumber columns unless they may stay alone.
   std::size_t rows_ = 0, columns_ = 0;
   std::vector<double> costs_;
-  std::vector<double> alone_;  // of each row; infinite: it may not
+  std::vector<double> alone_;  // cost of leaving each row without a column; infinite: not allowed
 
-  // Dual potentials: cost - of row - of column is never negative, and zero where a row has its column.
+  // Dual potentials: cost - of_row_ - of_column_ is never negative, and is zero for assigned pairs.
   std::vector<double> of_row_, of_column_;
   std::vector<int> column_of_, row_of_;  // kUnassigned: none
-  std::vector<int> waiting_;             // rows without their column yet
+  std::vector<int> waiting_;             // rows without a column so far
 
-  // Of the running search for a path.
-  std::vector<double> distance_;     // to each column
-  std::vector<int> reached_from_;    // row before each column
-  std::vector<int> open_, scanned_;  // columns that are not, and that are, on the tree of shortest paths
+  // State of the running search for a path.
+  std::vector<double> distance_;     // length of the path to each column
+  std::vector<int> reached_from_;    // row before each column on its path
+  std::vector<int> open_, scanned_;  // columns outside and inside the tree of shortest paths
   std::vector<int> tree_rows_;
-  double length_ = 0.0;           // of the path so far
-  double shortest_alone_ = 0.0;   // of the paths that end with a row left alone
-  int alone_end_ = kUnassigned;   // the row of the shortest of those
-  int column_end_ = kUnassigned;  // free column at the path's end; kUnassigned: it ends at alone_end_
+  double length_ = 0.0;           // length of the present path
+  double shortest_alone_ = 0.0;   // length of the shortest path that ends with a row left alone
+  int alone_end_ = kUnassigned;   // the row that this path leaves alone
+  int column_end_ = kUnassigned;  // free column at the end of the path; kUnassigned: the path ends at alone_end_
 };
 
 }  // namespace azimuth

@@ -44,7 +44,7 @@ DescriptorQuery::DescriptorQuery(const Descriptor& descriptor) : squared_norm(do
     const std::uint8_t* const four = &descriptor.values[4 * word];
     even[word] = four[0] | static_cast<std::uint32_t>(four[2]) << 16U;
     odd[word] = four[1] | static_cast<std::uint32_t>(four[3]) << 16U;
-    for (unsigned i = 0; i < 4; ++i)  // v - 128 as a byte is v with its highest bit turned over
+    for (unsigned i = 0; i < 4; ++i)  // v - 128 as a byte is v with its highest bit inverted
       centred[word] |= static_cast<std::uint32_t>(four[i] ^ 0x80U) << 8U * i;
   }
 }

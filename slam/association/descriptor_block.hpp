@@ -1,5 +1,5 @@
 #pragma once
-// Distances between descriptors, many at once. Integers throughout: the result is the same on every processor.
+// Distances between many descriptors at once. Integer arithmetic throughout: the result is the same on every processor.
 
 #include <array>
 #include <cstddef>
@@ -9,25 +9,26 @@
 
 namespace azimuth {
 
-/// Descriptors of several features side by side, one to a lane: four values of lane 0, the same four of lane 1, and so
-/// on. So one register holds values of many features, and their sums need not be gathered from within it.
+/// Descriptors of several features, one per lane, interleaved: four values of lane 0, the same four of lane 1, and so
+/// on. A register thus holds values of many features, and no sums across a register are needed.
 struct alignas(64) DescriptorBlock {
   static constexpr std::size_t kLanes = 16;
   static constexpr std::size_t kValues = 128;
 
   std::array<std::uint8_t, kValues * kLanes> values{};
-  std::array<std::int32_t, kLanes> sum{};           ///< of the lane's values
-  std::array<std::int32_t, kLanes> squared_norm{};  ///< of the lane's values
+  std::array<std::int32_t, kLanes> sum{};           ///< Sum of the lane's values
+  std::array<std::int32_t, kLanes> squared_norm{};  ///< Sum of the lane's squared values
 
   void set(std::size_t lane, const Descriptor& descriptor);
   Descriptor get(std::size_t lane) const;
 };
 
-/// A descriptor whose nearest are wanted, in the forms the loops multiply by.
+/// A descriptor to be compared with blocks, in the forms that the loops multiply by.
 struct alignas(64) DescriptorQuery {
   static constexpr std::size_t kWords = DescriptorBlock::kValues / 4;
 
-  // Of each four values a, b, c, d: a and c, b and d as 16-bit halves of a word; all four less 128 as its bytes.
+  // For each four values a, b, c, d: `even` holds a and c, `odd` holds b and d as 16-bit halves of a word; `centred`
+  // holds all four, less 128, as signed bytes.
   std::array<std::uint32_t, kWords> even{}, odd{}, centred{};
   std::int32_t squared_norm = 0;
 
@@ -35,14 +36,14 @@ struct alignas(64) DescriptorQuery {
   explicit DescriptorQuery(const Descriptor& descriptor);
 };
 
-/// Queries that are worked on together, so that what is loaded of a block serves several.
+/// Queries processed together, so that each loaded value of a block serves several queries.
 inline constexpr std::size_t kQueriesAtOnce = 4;
 
-/// What of a block lies nearer to each query than its bound.
+/// The lanes of a block that are nearer to each query than the query's bound.
 struct NearLanes {
-  /// Squared Euclidean distance of every lane, near or not.
+  /// Squared Euclidean distance for every lane, near or not.
   alignas(64) std::array<std::array<std::int32_t, DescriptorBlock::kLanes>, kQueriesAtOnce> squared_distance;
-  std::array<std::uint32_t, kQueriesAtOnce> near;  ///< a bit for each lane below the bound
+  std::array<std::uint32_t, kQueriesAtOnce> near;  ///< One bit per lane, set if the distance is below the bound
 };
 
 /// Compares a block with kQueriesAtOnce queries; `bounds` are squared distances.

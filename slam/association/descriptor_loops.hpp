@@ -1,6 +1,6 @@
 #pragma once
-// The loops of descriptor_block.hpp for each kind of processor; only their dispatch and their tests include this. Code
-// that is not for this processor must not be called.
+// The loops of descriptor_block.hpp for each kind of processor, for dispatch and tests only. A function must be called
+// only if its supported() returns true.
 
 #include "slam/association/descriptor_block.hpp"
 
@@ -24,7 +24,7 @@ void find_near(const DescriptorBlock& block, const DescriptorQuery* queries, con
 std::int32_t dot_product(const Descriptor& a, const Descriptor& b);
 }  // namespace avx2
 
-namespace avx512 {  // with its instructions for 8-bit products
+namespace avx512 {  // requires the instructions for 8-bit products (VNNI)
 bool supported();
 void find_near(const DescriptorBlock& block, const DescriptorQuery* queries, const std::int32_t* bounds,
                NearLanes& out);

@@ -1,4 +1,4 @@
-// Compiled with -mavx2 (CMakeLists.txt); reached only where the processor has it.
+// Compiled with -mavx2 (CMakeLists.txt). Called only on processors with AVX2.
 
 #include "slam/association/descriptor_loops.hpp"
 
@@ -8,8 +8,8 @@
 namespace azimuth::avx2 {
 namespace {
 
-/// Nothing of the standard library is called here: a copy of it compiled for this processor must not be linked into
-/// code for others.
+/// Replaces std::array::begin(). This file calls nothing of the standard library: the linker might use a copy compiled
+/// for this processor on others.
 template <class Element, std::size_t Size>
 inline const Element* begin(const std::array<Element, Size>& array) {
   return reinterpret_cast<const Element*>(&array);
@@ -18,7 +18,7 @@ inline const Element* begin(const std::array<Element, Size>& array) {
 inline __m256i load(const void* from) { return _mm256_load_si256(static_cast<const __m256i*>(from)); }
 inline __m256i in_all_lanes(std::uint32_t word) { return _mm256_set1_epi32(static_cast<int>(word)); }
 
-/// Values of eight lanes, each four as two pairs of 16 bits.
+/// Values of eight lanes, four per lane, as two pairs of 16-bit numbers.
 struct EightLanes {
   __m256i even, odd;
   explicit EightLanes(const std::uint8_t* values) {
@@ -33,7 +33,7 @@ inline __m256i add_products(__m256i sum, const EightLanes& lanes, __m256i even, 
   return _mm256_add_epi32(sum, _mm256_madd_epi16(lanes.odd, odd));
 }
 
-/// |a|^2 + |b|^2 - 2 a.b of eight lanes, and a bit for each that is below the bound.
+/// Writes |a|^2 + |b|^2 - 2 a.b for eight lanes; returns one bit per lane, set if the value is below the bound.
 inline std::uint32_t finish(const std::int32_t* squared_norms, std::int32_t query_norm2, __m256i product,
                             std::int32_t bound, std::int32_t* out) {
   const __m256i norms = _mm256_add_epi32(load(squared_norms), _mm256_set1_epi32(query_norm2));
@@ -50,7 +50,7 @@ bool supported() { return __builtin_cpu_supports("avx2") != 0; }
 void find_near(const DescriptorBlock& block, const DescriptorQuery* queries, const std::int32_t* bounds,
                NearLanes& out) {
   static_assert(DescriptorBlock::kLanes == 16 && kQueriesAtOnce == 4);
-  // Written out and not as arrays: the sums must live in registers at any level of optimisation.
+  // Separate variables instead of arrays: the sums must stay in registers at any level of optimisation.
   __m256i a0{}, a1{}, a2{}, a3{};  // lanes 0 to 7 of each query
   __m256i b0{}, b1{}, b2{}, b3{};  // lanes 8 to 15
   const std::uint8_t* values = begin(block.values);

@@ -1,4 +1,4 @@
-// Compiled with -mavx512f -mavx512vnni (CMakeLists.txt); reached only where the processor has both.
+// Compiled with -mavx512f -mavx512vnni (CMakeLists.txt). Called only on processors with both.
 
 #include "slam/association/descriptor_loops.hpp"
 
@@ -8,8 +8,8 @@
 namespace azimuth::avx512 {
 namespace {
 
-/// Nothing of the standard library is called here: a copy of it compiled for this processor must not be linked into
-/// code for others.
+/// Replaces std::array::begin(). This file calls nothing of the standard library: the linker might use a copy compiled
+/// for this processor on others.
 template <class Element, std::size_t Size>
 inline const Element* begin(const std::array<Element, Size>& array) {
   return reinterpret_cast<const Element*>(&array);
@@ -17,12 +17,12 @@ inline const Element* begin(const std::array<Element, Size>& array) {
 
 inline __m512i load(const void* from) { return _mm512_load_si512(from); }
 
-/// The instruction multiplies unsigned by signed bytes, hence the query less 128: its sums are a.b - 128 sum(a).
+/// The instruction multiplies unsigned by signed bytes, so the query is given less 128: the sums are a.b - 128 sum(a).
 inline __m512i add_products(__m512i sum, __m512i values, std::uint32_t centred) {
   return _mm512_dpbusd_epi32(sum, values, _mm512_set1_epi32(static_cast<int>(centred)));
 }
 
-/// |a|^2 + |b|^2 - 2 a.b of sixteen lanes, and a bit for each that is below the bound.
+/// Writes |a|^2 + |b|^2 - 2 a.b for sixteen lanes; returns one bit per lane, set if the value is below the bound.
 inline std::uint32_t finish(const DescriptorBlock& block, std::int32_t query_norm2, __m512i sum, std::int32_t bound,
                             std::int32_t* out) {
   const __m512i product = _mm512_add_epi32(sum, _mm512_mullo_epi32(load(begin(block.sum)), _mm512_set1_epi32(128)));
@@ -39,7 +39,7 @@ bool supported() { return __builtin_cpu_supports("avx512f") != 0 && __builtin_cp
 void find_near(const DescriptorBlock& block, const DescriptorQuery* queries, const std::int32_t* bounds,
                NearLanes& out) {
   static_assert(DescriptorBlock::kLanes == 16 && kQueriesAtOnce == 4 && DescriptorQuery::kWords % 2 == 0);
-  // Two sums for each query: one alone would wait for itself.
+  // Two sums per query: a single one would wait for its own latency.
   __m512i a0{}, a1{}, a2{}, a3{}, b0{}, b1{}, b2{}, b3{};
   const std::uint8_t* values = begin(block.values);
   for (std::size_t word = 0; word < DescriptorQuery::kWords; word += 2, values += 128) {

@@ -1,4 +1,4 @@
-// For arm64, where every processor that runs Linux has these instructions.
+// For arm64; every arm64 processor that runs Linux has these instructions.
 
 #include "slam/association/descriptor_loops.hpp"
 
@@ -8,18 +8,18 @@
 namespace azimuth::neon {
 namespace {
 
-/// The query's four values in every lane: they are kept with their highest bits turned over.
+/// The query's four values in every lane. They are stored less 128, so their highest bits are inverted back.
 inline uint8x16_t in_all_lanes(std::uint32_t centred) {
   return vreinterpretq_u8_u32(vdupq_n_u32(centred ^ 0x80808080U));
 }
 
-/// Of four lanes, each four values side by side.
+/// Adds the products for four lanes of four adjacent values each.
 inline uint32x4_t add_products(uint32x4_t sum, uint8x16_t values, uint8x16_t query) {
   const uint16x8_t first = vmull_u8(vget_low_u8(values), vget_low_u8(query)), second = vmull_high_u8(values, query);
   return vaddq_u32(sum, vpaddq_u32(vpaddlq_u16(first), vpaddlq_u16(second)));
 }
 
-/// |a|^2 + |b|^2 - 2 a.b of four lanes, and a bit for each that is below the bound.
+/// Writes |a|^2 + |b|^2 - 2 a.b for four lanes; returns one bit per lane, set if the value is below the bound.
 inline std::uint32_t finish(const std::int32_t* squared_norms, std::int32_t query_norm2, uint32x4_t product,
                             std::int32_t bound, std::int32_t* out) {
   const int32x4_t norms = vaddq_s32(vld1q_s32(squared_norms), vdupq_n_s32(query_norm2));

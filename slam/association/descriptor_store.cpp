@@ -10,10 +10,11 @@
 namespace azimuth {
 namespace {
 
-// Blocks that stay in the nearest cache while all queries are compared with them.
+// Number of blocks that stay in the first-level cache while all queries are compared with them.
 constexpr std::size_t kBlocksAtOnce = 8;
 
-/// Null: none has the identity. `in_order` is in the order of identities, and what is left of it is for later ones.
+/// The entry of `identity`, or null. `in_order` is sorted by identity; entries before it are dropped, so calls must be
+/// in ascending order.
 const SightedWithin* next_with(Identity identity, std::span<const SightedWithin>& in_order) {
   while (!in_order.empty() && in_order.front().identity < identity) in_order = in_order.subspan(1);
   return !in_order.empty() && in_order.front().identity == identity ? &in_order.front() : nullptr;
@@ -55,14 +56,14 @@ void DescriptorStore::search(std::span<const Descriptor> queries, std::span<cons
                              std::span<NearestTwo> out) {
   queries_.clear();
   for (const Descriptor& descriptor : queries) queries_.emplace_back(descriptor);
-  while (queries_.size() % kQueriesAtOnce != 0) queries_.emplace_back();  // nothing is nearer than their bound of 0
+  while (queries_.size() % kQueriesAtOnce != 0) queries_.emplace_back();  // padding; no view is below a bound of 0
   for (std::size_t first = 0; first < blocks_.size(); first += kBlocksAtOnce)
     for (std::size_t query = 0; query < queries.size(); query += kQueriesAtOnce)
       for (std::size_t block = first; block < std::min(first + kBlocksAtOnce, blocks_.size()); ++block)
         if (selected_[block] != 0) compare(query, block, azimuths_rad, out);
 }
 
-/// Marks the views near enough to be of something in sight.
+/// Selects the views taken near enough to be of a landmark in view.
 void DescriptorStore::select(const Eigen::Vector2d& p_map_robot_m, bool anywhere) {
   const double limit2 = 4.0 * settings_.max_viewing_distance_m * settings_.max_viewing_distance_m;
   selected_.assign(blocks_.size(), 0);
@@ -82,7 +83,8 @@ void DescriptorStore::list_within(std::span<const SightedWithin> within) {
   }
 }
 
-/// One block with a group of queries. A view as far away as the rival changes nothing, so that is the bound.
+/// Compares one block with a group of queries. The rival's distance is the bound, since views as far away change
+/// nothing.
 void DescriptorStore::compare(std::size_t first_query, std::size_t block, std::span<const double> azimuths_rad,
                               std::span<NearestTwo> out) {
   const bool by_place = !azimuths_rad.empty();
@@ -116,8 +118,8 @@ void DescriptorStore::see(Identity identity, const Descriptor& looks, const Patt
   if (settings_.keep_patterns) patterns_[slot] = pattern;
 }
 
-/// The slot of the view from the nearest place, when that is too near to be told apart or there is no room for
-/// another; else a new one.
+/// The slot of the view from the nearest place if that place is too near for a view of its own, or if there is no room
+/// for another view; else a new slot.
 std::uint32_t DescriptorStore::slot_for_view(Known& known, const Eigen::Vector2d& p_map_robot_m) {
   std::uint32_t nearest = kNoSlot;
   double nearest2 = std::numeric_limits<double>::infinity();
@@ -184,7 +186,7 @@ void DescriptorStore::save(Identity identity, std::vector<MapView>& out) const {
   for (std::uint32_t slot = at->first; slot != kNoSlot; slot = slots_[slot].next)
     out.push_back({identity, slots_[slot].p_map_robot_m,
                    blocks_[slot / DescriptorBlock::kLanes].get(slot % DescriptorBlock::kLanes)});
-  std::reverse(out.begin() + first, out.end());  // lists begin with the newest
+  std::reverse(out.begin() + first, out.end());  // lists start with the newest
 }
 
 void DescriptorStore::restore(std::span<const MapView> views) {
@@ -228,7 +230,7 @@ void DescriptorStore::forget_unstable(double path_m) {
   std::erase_if(known_, [](const Known& known) { return known.views == 0; });
 }
 
-/// Makes room: of the unstable identities, else of all, the one not seen for the longest.
+/// Makes room by forgetting the identity not seen for the longest time, unstable ones first.
 void DescriptorStore::forget_least_worth() {
   const auto worth_less = [this](const Known& a, const Known& b) {
     const bool a_empty = a.views == 0, b_empty = b.views == 0;

@@ -32,7 +32,7 @@ void DirectionHypothesis::start(const PredictedOffsets& predicted, std::size_t m
   whitened_.resize(2 * rows);
 }
 
-/// across = L^-1 (D_k C_k,pair D^T), two rows for each pairing believed.
+/// across = L^-1 (D_k C_k,pair D^T), two rows for each accepted pair.
 void DirectionHypothesis::whiten_against_believed(const DirectionPair& pair) {
   for (std::size_t k = 0; k < believed_.size(); ++k) {
     const DirectionPair& other = believed_[k];

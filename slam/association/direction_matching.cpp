@@ -34,7 +34,7 @@ void DirectionMatching::match(std::span<const MeasuredDirection> measured, const
   choose(out);
 }
 
-/// Likeliest first, so that the most promising ones are tried when there are too many.
+/// Pairs are sorted by likelihood, so that the most promising ones are tried if there are too many.
 void DirectionMatching::find_pairs() {
   pairs_.clear();
   fit(pairs_of_seen_, measured_.size(), 0);
@@ -65,7 +65,8 @@ bool DirectionMatching::is_disputed(const DirectionPair& pair) const {
   return pairs_of_seen_[as_size(pair.seen)] > 1 || pairs_of_landmark_[as_size(pair.landmark)] > 1;
 }
 
-/// What is assigned but contradicts those believed before it is assigned anew, by what they leave of its uncertainty.
+/// Builds one hypothesis. An assigned pair that contradicts pairs accepted before it is assigned again, conditioned on
+/// the accepted pairs.
 void DirectionMatching::try_from(const DirectionPair* seed) {
   hypothesis_.start(*predicted_, measured_.size());
   fit(landmark_of_, measured_.size(), kNoLandmark);
@@ -81,7 +82,7 @@ void DirectionMatching::take(const DirectionPair& pair) {
   taken_[as_size(pair.landmark)] = 1;
 }
 
-/// The best assignment of what is free. False: nothing more can be paired.
+/// Finds the best assignment of free directions and landmarks. Returns false if nothing more can be paired.
 bool DirectionMatching::assign_the_rest() {
   const std::size_t rows = measured_.size(), columns = predicted_->m.size();
   fit(table_, rows * columns, -std::numeric_limits<double>::infinity());
@@ -103,7 +104,7 @@ bool DirectionMatching::assign_the_rest() {
   return !assigned_.empty();
 }
 
-/// The likeliest first (the order of the pairs); those known best are the least doubtful.
+/// Accepts the assigned pairs in the order of pairs_, the most likely ones first.
 void DirectionMatching::believe_in_order() {
   for (const DirectionPair& pair : assigned_)
     if (hypothesis_.given(pair).distance2 < gates_.individual_chi2) take(pair);
@@ -129,7 +130,7 @@ void DirectionMatching::choose(std::vector<DirectionMatch>& out) {
   refuse_incompatible(out);
 }
 
-/// A direction that a landmark would explain starts no other one there.
+/// A direction that a landmark would explain must not start a new landmark.
 void DirectionMatching::refuse_explained(std::vector<DirectionMatch>& out) {
   for (const DirectionPair& pair : pairs_) {
     DirectionMatch& match = out[as_size(pair.seen)];

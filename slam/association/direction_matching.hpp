@@ -15,33 +15,33 @@ struct MeasuredDirection {
 };
 
 struct DirectionGates {
-  double individual_chi2 = 13.8;    ///< of one pairing, 2 degrees of freedom
-  double joint_probability = 0.99;  ///< confidence of the joint test
-  double new_density_per_sr = 0.1;  ///< directions of something unmapped, per steradian and image
-  /// A joint hypothesis this near in log-likelihood to the best one is its rival, and what the two explain differently
-  /// is ambiguous. 0: the best one is always believed.
+  double individual_chi2 = 13.8;    ///< Gate of one pair, 2 degrees of freedom
+  double joint_probability = 0.99;  ///< Confidence of the joint test
+  double new_density_per_sr = 0.1;  ///< Expected directions of unmapped landmarks and clutter, per steradian and image
+  /// A joint hypothesis within this log-likelihood of the best one is its rival; directions that the two explain
+  /// differently are ambiguous. 0: the best hypothesis is always used.
   double rival_log_ratio = 2.0;
-  int max_hypotheses = 32;  ///< tried, beside the first
+  int max_hypotheses = 32;  ///< Number of hypotheses tried besides the first
   /// Multiplications after which no further hypothesis is tried; 5 * 10^7 take some tens of milliseconds.
   std::uint64_t max_operations = 50'000'000;
 };
 
-/// What a direction is of.
+/// Outcome of the association of a direction.
 enum class DirectionFate : std::uint8_t {
-  fresh,      ///< nothing predicted can be meant
-  paired,     ///< a landmark
-  ambiguous,  ///< two hypotheses explain it otherwise, about equally well
-  refused     ///< something predicted could be meant, but another direction is of that, or the joint test says no
+  fresh,      ///< No predicted landmark is within the gate
+  paired,     ///< Paired with a landmark
+  ambiguous,  ///< Two hypotheses explain the direction differently and about equally well
+  refused     ///< A predicted landmark is within the gate, but another direction takes it, or the joint test fails
 };
 struct DirectionMatch {
   DirectionFate fate = DirectionFate::fresh;
-  int landmark = kNoLandmark;  ///< when paired
+  int landmark = kNoLandmark;  ///< The landmark, if `fate` is paired
 };
 
-/// Which direction is of which landmark: the best assignment (Hungarian) by the marginal likelihoods, tested jointly,
-/// since an error of the pose moves all predictions together. Where pairings are disputed, further hypotheses start
-/// from one disputed pairing each: the others are then assigned by what is left to them once that one is believed. The
-/// hypothesis of the largest joint likelihood wins.
+/// Data association of directions with landmarks: the best assignment (Hungarian) by the marginal likelihoods, tested
+/// jointly, since an error of the pose moves all predictions together. Where pairs are disputed, each further
+/// hypothesis starts from one disputed pair and assigns the other directions conditioned on it. The hypothesis with the
+/// largest joint likelihood wins.
 ///
 /// Thread contract: thread-bound; does not allocate once its workspace has grown to the largest image.
 class DirectionMatching {
@@ -53,7 +53,7 @@ class DirectionMatching {
  private:
   struct Try {
     double log_likelihood;
-    std::size_t first;  // of its choices
+    std::size_t first;  // index of the hypothesis's first entry in choices_
   };
   void find_pairs();
   bool is_disputed(const DirectionPair& pair) const;
@@ -70,17 +70,17 @@ class DirectionMatching {
   std::span<const MeasuredDirection> measured_;
   const PredictedOffsets* predicted_ = nullptr;
   DirectionGates gates_;
-  std::vector<DirectionPair> pairs_;  // within their gate
+  std::vector<DirectionPair> pairs_;  // within their individual gate
   std::vector<int> pairs_of_seen_, pairs_of_landmark_;
   Assignment assignment_;
   DirectionHypothesis hypothesis_;
-  std::vector<int> landmark_of_;     // of each direction, in the hypothesis being made
-  std::vector<std::uint8_t> taken_;  // landmarks
+  std::vector<int> landmark_of_;     // landmark of each direction in the present hypothesis
+  std::vector<std::uint8_t> taken_;  // indexed by landmark
   std::vector<double> table_, alone_;
   std::vector<int> column_of_row_;
   std::vector<DirectionPair> assigned_;
   std::vector<Try> tries_;
-  std::vector<int> choices_;  // of all tries
+  std::vector<int> choices_;  // landmarks chosen by all tries
   JointTest joint_test_;
   Workspace S_;
   std::vector<double> innovations_;

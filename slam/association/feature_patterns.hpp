@@ -1,5 +1,5 @@
 #pragma once
-// Feature patterns (SPEC I.14): the features around a feature, compared with those around another.
+// Feature patterns (mathematics I.14): compares the neighbours of one feature with those of another.
 
 #include <array>
 #include <cstddef>
@@ -12,10 +12,10 @@ namespace azimuth {
 /// Pearson's correlation of two equally long sequences, in [-1, 1]; 0 when one of them is constant.
 double correlation(std::span<const double> a, std::span<const double> b);
 
-/// Likewise of two descriptors' values.
+/// Pearson's correlation of the values of two descriptors.
 double correlation(const Descriptor& a, const Descriptor& b);
 
-/// The neighbours of a feature, by their looks.
+/// The descriptors of a feature's neighbours.
 struct Pattern {
   std::array<Descriptor, Neighbours::kMost> members{};
   std::size_t count = 0;
@@ -23,11 +23,11 @@ struct Pattern {
   std::span<const Descriptor> seen() const { return {members.data(), count}; }
 };
 
-/// Of feature `at` in its image; descriptors of neighbours that are not there are left out.
+/// The pattern of feature `at` in its image. Neighbours without a descriptor are left out.
 Pattern pattern_of(const BearingSet& image, std::size_t at);
 
-/// How many members of `first` correlate by more than `threshold` with some member of `second`; one of the second may
-/// serve several.
+/// The number of members of `first` that correlate by more than `threshold` with some member of `second`; one member of
+/// `second` may match several.
 template <class Members>
 std::size_t matched_members(const Members& first, const Members& second, double threshold) {
   std::size_t matched = 0;

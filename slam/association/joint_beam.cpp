@@ -38,7 +38,7 @@ void JointBeam::order_bearings(const Problem& problem) {
       order_, [&](std::size_t a, std::size_t b) { return surest_[a] != surest_[b] ? surest_[a] < surest_[b] : a < b; });
 }
 
-/// All that may come of the partial hypotheses by this bearing.
+/// Creates all extensions of the partial hypotheses by this bearing.
 void JointBeam::branch(const Problem& problem, std::size_t bearing) {
   children_.clear();
   for (std::size_t p = 0; p < now_.size(); ++p) {
@@ -49,7 +49,7 @@ void JointBeam::branch(const Problem& problem, std::size_t bearing) {
   }
 }
 
-/// Adds the partial hypothesis with one pair more, unless that fails the joint test.
+/// Adds the partial hypothesis extended by one pair, unless that fails the joint test.
 void JointBeam::pair(const Problem& problem, std::size_t parent, const JointCandidate& candidate,
                      double variance_rad2) {
   const Partial& partial = now_[parent];
@@ -68,8 +68,8 @@ void JointBeam::pair(const Problem& problem, std::size_t parent, const JointCand
                        candidate.landmark, std::sqrt(pivot), step});
 }
 
-/// The likeliest children are the next layer. Their rows of the factor are solved for once more, which costs less than
-/// to keep those of all.
+/// The most likely children form the next layer. Their rows of the factor are computed a second time, which costs less
+/// than storing the rows of all children.
 void JointBeam::carry_on(const Problem& problem, std::size_t bearing) {
   const auto better = [](const Child& a, const Child& b) {
     if (a.log_likelihood != b.log_likelihood) return a.log_likelihood > b.log_likelihood;
@@ -110,7 +110,7 @@ bool JointBeam::is_used(const Partial& partial, int landmark) const {
   return std::find(row, row + partial.paired, landmark) != row + partial.paired;
 }
 
-/// The next row of the Cholesky factor, its pivot left out.
+/// Computes the next row of the Cholesky factor, without its pivot.
 std::span<const double> JointBeam::next_row(const Problem& problem, const Partial& partial, int landmark) {
   const double* factor = &layers_[at_].factor[partial.block * triangle_];
   const int* row = &layers_[at_].row[partial.block * bearings_];

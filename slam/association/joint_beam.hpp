@@ -1,5 +1,5 @@
 #pragma once
-// Joint hypotheses by breadth: for images that show more than branch and bound gets through.
+// Beam search for joint hypotheses, for images with too many bearings for branch and bound.
 
 #include <Eigen/Core>
 #include <array>
@@ -9,44 +9,45 @@
 
 namespace azimuth {
 
-/// What a bearing may be of: a mapped landmark, and how far from it the bearing is.
+/// A landmark that a bearing may belong to, and the innovation of that pair.
 struct JointCandidate {
   int landmark;
   double innovation;
 };
 
-/// Carries the likeliest partial hypotheses from bearing to bearing, those with the surest predictions first: they tell
-/// where the robot is, and so what the others can be. It may miss the best one, which branch and bound cannot, but its
-/// time is bounded by `width` extensions of each bearing's candidates, and what it misses is unlikely from early on.
+/// Extends the most likely partial hypotheses bearing by bearing, starting with the most certain predictions: these
+/// determine the robot's pose, and hence the associations of the others. Unlike branch and bound the search may miss
+/// the best hypothesis, but only one that looked unlikely early on; its time is bounded by `width` extensions of each
+/// bearing's candidates.
 ///
 /// Thread contract: thread-bound; workspace is kept between calls.
 class JointBeam {
  public:
   struct Problem {
-    std::span<const std::vector<JointCandidate>> candidates;  ///< of each bearing
-    std::span<const double> variance_rad2;                    ///< likewise, of the bearing itself
-    Eigen::Ref<const Eigen::MatrixXd> covariance;             ///< of the predicted azimuths, rad^2
-    std::span<const double> quantile;                         ///< of chi-square, by pairings
-    double log_new;                                           ///< log-likelihood of a bearing of something unmapped
-    std::size_t width;                                        ///< partial hypotheses carried on, at least 1
+    std::span<const std::vector<JointCandidate>> candidates;  ///< Candidates of each bearing
+    std::span<const double> variance_rad2;                    ///< Measurement noise of each bearing
+    Eigen::Ref<const Eigen::MatrixXd> covariance;             ///< Covariance of the predicted azimuths, rad^2
+    std::span<const double> quantile;                         ///< Chi-square quantile, by number of pairs
+    double log_new;                                           ///< Log-likelihood of a bearing of an unmapped landmark
+    std::size_t width;                                        ///< Partial hypotheses carried on, at least 1
   };
 
   void search(const Problem& problem);
 
-  /// Whole hypotheses, best first.
+  /// Complete hypotheses, best first.
   std::size_t size() const { return now_.size(); }
   double log_likelihood(std::size_t at) const { return now_[at].log_likelihood; }
   /// The landmark of each bearing; negative: none.
   std::span<const int> choices(std::size_t at) const;
 
  private:
-  /// A hypothesis for the bearings up to here, in a block of the layer's storage.
+  /// A hypothesis for the bearings processed so far; its details are in a block of the layer's storage.
   struct Partial {
     double log_likelihood, distance2;
     std::size_t block;
     int paired;
   };
-  /// One that may come of it.
+  /// A possible extension of a partial hypothesis by one bearing.
   struct Child {
     double log_likelihood, distance2;
     std::size_t parent;
@@ -54,8 +55,8 @@ class JointBeam {
     double pivot, whitened;
   };
   struct Layer {
-    std::vector<int> choice, row;  // by block: of each bearing; the landmark of each row of the factor
-    std::vector<double> factor;    // by block: lower triangle, row by row
+    std::vector<int> choice, row;  // indexed by block: landmark of each bearing, landmark of each row of the factor
+    std::vector<double> factor;    // indexed by block: lower triangle, row by row
     std::vector<double> whitened;
   };
   void order_bearings(const Problem& problem);

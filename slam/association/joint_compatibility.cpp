@@ -28,7 +28,7 @@ void JointCompatibility::associate(std::span<const MeasuredAzimuth> measured, co
   while (quantile_.size() <= measured.size())
     quantile_.push_back(
         quantile_.empty() ? 0.0 : chi_square_quantile(static_cast<int>(quantile_.size()), gates.joint_probability));
-  // With slack, so that a slightly larger image than ever before does not allocate.
+  // With slack, so that a slightly larger image than any before does not allocate.
   if (used_.capacity() < predicted.azimuth_rad.size()) used_.reserve(2 * predicted.azimuth_rad.size());
   if (choices_.capacity() < kMostHypotheses * measured.size()) choices_.reserve(2 * kMostHypotheses * measured.size());
   if (chosen_.capacity() < measured.size()) chosen_.reserve(2 * measured.size());
@@ -67,7 +67,7 @@ void JointCompatibility::find_candidates(const JointGates& gates) {
     }
     std::sort(candidates_[m].begin(), candidates_[m].end(),
               [](const Candidate& a, const Candidate& b) { return std::abs(a.innovation) < std::abs(b.innovation); });
-    // No conditional variance falls below the measurement's own.
+    // The conditional variance of an innovation is never below the measurement's own.
     const double log_certain = -0.5 * std::log(2.0 * kPi * measured_[m].variance_rad2);
     best_possible_[m] = best_possible_[m + 1] + (candidates_[m].empty() ? log_new : std::max(log_new, log_certain));
   }
@@ -96,7 +96,7 @@ void JointCompatibility::search(std::size_t measurement, int paired, double dist
   search(measurement + 1, paired, distance2, log_likelihood + std::log(gates_.new_density_per_rad));
 }
 
-/// Adds one row to the factor of the joint innovation covariance; false when the joint test fails.
+/// Adds one row to the factor of the joint innovation covariance. Returns false when the joint test fails.
 bool JointCompatibility::extend(std::size_t measurement, const Candidate& candidate, int paired, double& distance2,
                                 double& log_likelihood) {
   const Eigen::Index row = paired;
@@ -119,7 +119,7 @@ bool JointCompatibility::extend(std::size_t measurement, const Candidate& candid
   return distance2 <= quantile_[as_size(paired + 1)];
 }
 
-/// The log-likelihood below which a hypothesis can neither be the best nor a rival.
+/// The log-likelihood below which a hypothesis can be neither the best nor a rival.
 double JointCompatibility::worth_keeping() const {
   if (kept_.empty()) return -std::numeric_limits<double>::infinity();
   const double rival = kept_.front().log_likelihood - std::max(gates_.rival_log_ratio, gates_.keep_log_ratio);
@@ -190,7 +190,7 @@ void JointTest::prune(std::span<const double> innovations, int axes, const Eigen
   }
 }
 
-/// Leaving i out lowers the squared distance by (S^-1 nu)_i^T ((S^-1)_ii)^-1 (S^-1 nu)_i.
+/// Leaving pair i out reduces the squared distance by (S^-1 nu)_i^T ((S^-1)_ii)^-1 (S^-1 nu)_i.
 Eigen::Index JointTest::worst_of(const Eigen::Ref<const Eigen::VectorXd>& weighted,
                                  const Eigen::Ref<const Eigen::MatrixXd>& inverse, int axes) {
   Eigen::Index worst = 0;

@@ -8,7 +8,7 @@
 namespace azimuth {
 namespace {
 
-// Nearer to the ray's origin than this the direction to it is a matter of rounding.
+// At a smaller distance from the ray's origin its direction is dominated by rounding.
 constexpr double kSamePlace_m = 1e-9;
 
 double direction(const Eigen::Vector2d& vector) { return std::atan2(vector.y(), vector.x()); }
@@ -16,7 +16,7 @@ double direction(const Eigen::Vector2d& vector) { return std::atan2(vector.y(), 
 }  // namespace
 
 bool ViewInterval::contains(double direction_rad, double margin_rad) const {
-  // From its middle, so that both ends count when the sweep is near pi and the margin makes them meet behind.
+  // Measured from the middle, so that both ends count even if the sweep is near pi and the widened ends overlap.
   const double middle_rad = start_rad + 0.5 * sweep_rad;
   return std::abs(wrap(direction_rad - middle_rad)) <= 0.5 * std::abs(sweep_rad) + margin_rad;
 }

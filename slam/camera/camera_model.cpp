@@ -94,8 +94,8 @@ std::optional<Eigen::Matrix2d> CameraModel::direction_jacobian(const Pixel& pixe
   return jacobian;
 }
 
-/* A direction moves on the sphere, eastwards by cos(elevation) d azimuth and upwards by d elevation, and the tilt turns
- * the one with the other (SPEC VI.34). Unlike azimuths these have no singularity, in the centre or elsewhere:
+/* A direction moves on the sphere, eastwards by cos(elevation) d azimuth and upwards by d elevation; the tilt rotates
+ * these tangents (mathematics VI.34). Unlike azimuths, they have no singularity:
  *   d ray = (east, up)_camera diag(cos(elevation) / r, d elevation / d r) d (r psi, r),
  *   d (cos(elevation) azimuth, elevation)_level = (east, up)_level^T R d ray
  */

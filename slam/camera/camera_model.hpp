@@ -17,52 +17,53 @@ namespace azimuth {
 using RadialProfile =
     std::variant<HyperbolicMirror, ParabolicMirror, PajdlaFisheye, EquidistantFisheye, PolynomialFisheye>;
 
-/// Where something is seen from the camera's viewpoint, in the robot's frame.
+/// A direction from the camera's viewpoint, in the robot's frame.
 struct Direction {
-  double azimuth_rad = 0.0;    ///< counter-clockwise from the heading, [-pi, pi); arbitrary straight up and down
-  double elevation_rad = 0.0;  ///< up from the horizontal, [-pi/2, pi/2]
+  /// Counter-clockwise from the heading, in [-pi, pi); arbitrary for the zenith and the nadir.
+  double azimuth_rad = 0.0;
+  double elevation_rad = 0.0;  ///< Up from the horizontal, in [-pi/2, pi/2]
 };
 
-/// The unit vector towards `direction`: x ahead, y to the left, z up.
+/// The unit vector along `direction`: x ahead, y to the left, z up.
 Eigen::Vector3d ray(const Direction& direction);
-/// The direction of any vector but zero.
+/// The direction of a non-zero vector.
 Direction direction(const Eigen::Vector3d& ray);
 
-/// An omnidirectional camera with one viewpoint and an axis that is vertical, or leans by a known tilt: pixels to
-/// directions in the robot's frame, which is level, and back. The two are inverse to each other wherever they give
-/// something.
+/// An omnidirectional camera with a single viewpoint and an optical axis that is vertical or has a known tilt. Converts
+/// pixels to directions in the robot's frame, which is level, and back. The two conversions are inverse to each other
+/// wherever both are defined.
 ///
 /// Thread contract: reentrant. Nothing allocates.
 class CameraModel {
  public:
-  /// Why these parameters make no camera, if they do not.
+  /// The reason why these parameters are not valid; nullopt if they are valid.
   static std::optional<std::string_view> problem(const ImageAxes& axes, const RadialProfile& profile);
 
-  /// Only parameters without a problem.
+  /// problem() must return nullopt for these parameters.
   CameraModel(const ImageAxes& axes, const RadialProfile& profile, const CameraTilt& tilt = {});
 
-  /// Nothing for pixels outside the image of the lens or the mirror. Where that image is hidden or cut off is the
-  /// business of ImageMask.
+  /// Returns nullopt for pixels outside the image circle of the lens or mirror. ImageMask, not this class, knows hidden
+  /// and cut-off parts of the image.
   std::optional<Direction> direction(const Pixel& pixel) const;
   std::optional<Eigen::Vector3d> ray(const Pixel& pixel) const;
 
-  /// Nothing for directions the camera cannot see. `ray` need not be of unit length, but not zero.
+  /// Returns nullopt for directions that the camera cannot see. `ray` must not be zero; its length does not matter.
   std::optional<Pixel> pixel(const Direction& direction) const;
   std::optional<Pixel> pixel(const Eigen::Vector3d& ray) const;
 
-  /// d (azimuth, elevation) / d (u, v) where direction() gives something. Within ImageAxes::kNearCentre_px of the
-  /// image of the zenith, or of the nadir, the azimuth's row is that at this distance, since it would grow without
-  /// bound.
+  /// d (azimuth, elevation) / d (u, v), defined where direction() is. Within ImageAxes::kNearCentre_px of the image of
+  /// the zenith or nadir, the azimuth's row is that at this distance, since it would otherwise grow without bound.
   std::optional<Eigen::Matrix2d> direction_jacobian(const Pixel& pixel) const;
-  /// Covariance of (azimuth, elevation) [rad^2] for a detection that is off by `sigma_px` along u and along v.
+  /// Covariance of (azimuth, elevation) [rad^2] of a detection with standard deviation `sigma_px` along u and along v.
   std::optional<Eigen::Matrix2d> direction_covariance(const Pixel& pixel, double sigma_px) const;
 
-  /// What `in_camera` is for the robot, of a direction from a camera that is taken to be level.
+  /// Applies the tilt: converts a direction in the frame of the tilted camera to the level robot frame.
   Direction levelled(const Direction& in_camera) const;
   /// The same camera without its tilt.
   CameraModel upright() const { return {axes_, profile_}; }
-  /// Where that would see what this one sees at `pixel`, and the inverse; a camera without tilt gives the pixel itself.
-  /// In the levelled image the sides of upright things are lines through the centre. Nothing outside of either image.
+  /// level_pixel() gives the pixel at which the untilted camera would see the direction that this camera sees at
+  /// `pixel`; tilted_pixel() is the inverse. Without a tilt, both return their argument. In the levelled image the
+  /// sides of upright objects are lines through the centre. Returns nullopt for pixels outside either image.
   std::optional<Pixel> level_pixel(const Pixel& pixel) const;
   std::optional<Pixel> tilted_pixel(const Pixel& level_pixel) const;
 

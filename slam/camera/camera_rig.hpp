@@ -1,5 +1,5 @@
 #pragma once
-// What is fixed about the camera (rig.toml, table [camera]).
+// The fixed properties of the camera (rig.toml, table [camera]).
 
 #include <array>
 #include <optional>
@@ -9,51 +9,53 @@
 
 namespace azimuth {
 
-/// How directions reach us. Only `bearings` needs nothing but angles; the image front ends add their own parameters.
+/// The source of bearings. `bearings` needs only angles; the image front ends add their own parameters.
 enum class FrontEnd { bearings, colour, sift, lamps };
 
 /// A point in the image: u to the right, v down.
 using PixelPoint = std::array<double, 2>;
-/// Each polygon by its corners, in either sense of rotation.
+/// Polygons given by their corners, in either sense of rotation.
 using PixelPolygons = std::vector<std::vector<PixelPoint>>;
 
-/// The image camera behind the directions, for the image front ends; a source of bearings needs none of it.
-/// Absent: rig.toml does not say. Which members a model needs is checked when rig.toml is read
-/// (settings/model_keys.hpp).
+/// Properties of the image camera, for the image front ends; a source of bearings needs none of them. An empty member
+/// is absent in rig.toml. settings/model_keys.hpp defines which members a camera model needs; they are checked when
+/// rig.toml is read.
 struct ImageRig {
   std::optional<int> width_px;
   std::optional<int> height_px;
-  std::optional<PixelPoint> centre_px;  ///< where the optical axis meets the image
-  double beta = 1.0;                    ///< height of a pixel over its width
+  std::optional<PixelPoint> centre_px;  ///< The point where the optical axis meets the image
+  double beta = 1.0;                    ///< Height of a pixel over its width
   int azimuth_direction = -1;           ///< azimuth = direction * atan2(v / beta - v0, u - u0) + offset
   double azimuth_offset_rad = 0.0;
-  std::optional<double> viewpoint_height_m;  ///< above the floor
-  std::optional<double> sigma_px;            ///< standard deviation of a detection, along u and along v
+  std::optional<double> viewpoint_height_m;  ///< Above the floor
+  std::optional<double> sigma_px;            ///< Standard deviation of a detection, along u and along v
   std::optional<double> detection_probability;
-  std::optional<double> mask_inner_px;  ///< radius about the centre hidden by robot and mounting
-  std::optional<double> mask_outer_px;  ///< radius of the mirror's rim
-  PixelPolygons mask_polygons_px;       ///< hidden as well: struts, cables, antennas
-  /// Directions are known up to here from the optical axis; a fisheye's model holds as far.
+  std::optional<double> mask_inner_px;  ///< Radius about the centre that robot and mounting hide
+  std::optional<double> mask_outer_px;  ///< Radius of the mirror's rim
+  PixelPolygons mask_polygons_px;       ///< Further hidden areas: struts, cables, antennas.
+  /// The greatest angle from the optical axis at which the camera model, or the fisheye's calibration, is valid.
   std::optional<double> theta_max_rad;
 };
 
 struct CameraRig {
   ModelRig model;
-  double sigma_bearing_rad = 0.0262;             ///< standard deviation of one azimuth
-  bool identities = false;                       ///< bearings carry the identity of what was seen
-  double field_of_view_rad = 6.283185307179586;  ///< full horizontal angle; 2 pi: all round
-  /// Of its viewpoint in the robot's frame, whose origin is the point that odometry is of: x forward, y to the left.
+  double sigma_bearing_rad = 0.0262;             ///< Standard deviation of one azimuth
+  bool identities = false;                       ///< Whether bearings carry the identity of the landmark
+  double field_of_view_rad = 6.283185307179586;  ///< Full horizontal angle; 2 pi means all round.
+  /// Position of the camera's viewpoint in the robot's frame: x forward, y to the left. The origin is the point to
+  /// which odometry refers.
   std::array<double, 2> position_m{};
-  double sigma_position_m = 0.02;  ///< standard deviation of position_m, along each axis; 0: exact
-  double yaw_offset_rad = 0.0;     ///< of the camera's zero azimuth from the robot's heading, counter-clockwise
-  double sigma_yaw_rad = 0.005;    ///< standard deviation of yaw_offset_rad; 0: exact
-  /// How it leans, about the robot's axes: what is level for the robot is R_y(pitch) R_x(roll) times what is level for
-  /// the camera (CameraTilt). Of images alone: bearings are level.
-  double roll_rad = 0.0;   ///< about x, forward: a positive one lifts the left side
-  double pitch_rad = 0.0;  ///< about y, to the left: a positive one lowers what is ahead
-  /// Standard deviation of both; 0: exact. Absent: nobody measured it (make_camera.hpp, sigma_tilt_rad()).
+  double sigma_position_m = 0.02;  ///< Standard deviation of position_m along each axis; 0 means exact.
+  double yaw_offset_rad = 0.0;     ///< Counter-clockwise angle from the robot's heading to the camera's zero azimuth
+  double sigma_yaw_rad = 0.005;    ///< Standard deviation of yaw_offset_rad; 0 means exact.
+  /// Tilt of the camera about the robot's axes: v_level = R_y(pitch) R_x(roll) v_camera (CameraTilt). It applies to
+  /// images only; bearings are level.
+  double roll_rad = 0.0;   ///< About x (forward); a positive roll lifts the left side.
+  double pitch_rad = 0.0;  ///< About y (left); a positive pitch lowers the front.
+  /// Standard deviation of roll and of pitch; 0 means exact. Empty: not measured (see sigma_tilt_rad() in
+  /// make_camera.hpp).
   std::optional<double> sigma_tilt_rad = {};
-  bool azimuths_clockwise = false;  ///< bearings that come ready made have azimuths that grow to the right
+  bool azimuths_clockwise = false;  ///< Whether the azimuths of ready-made bearings grow clockwise
   ImageRig image;
 };
 

@@ -9,12 +9,12 @@
 namespace azimuth {
 namespace {
 
-// Between samples, along the radius and around it. SPEC II.2 says below 0.5, at which no pixel is missed; but then the
-// interval of a pixel is half as wide as the pixel.
+// Step between directions, along the radius and around it. mathematics II.2 asks for less than 0.5, which misses no
+// pixel but makes the interval of a pixel only half as wide as the pixel.
 constexpr double kStep_px = 0.2;
-constexpr double kSearchStep_rad = 1e-3;  // where the camera does not see
+constexpr double kSearchStep_rad = 1e-3;  // Step where the camera does not see
 
-/// The elevation a step further out in the image, or in: the next one below `elevation_rad`.
+/// The elevation below `elevation_rad` whose image is one step further along the radius.
 double next_below(const CameraModel& camera, const Pixel& pixel, double elevation_rad) {
   const Eigen::Matrix2d jacobian = camera.direction_jacobian(pixel).value_or(Eigen::Matrix2d::Zero());
   const double slope_rad_per_px = jacobian.row(1).norm();
@@ -36,7 +36,7 @@ DirectionTable::DirectionTable(const CameraModel& camera, int width_px, int heig
       elevation_rad -= kSearchStep_rad;
       continue;
     }
-    // Pixels that are higher than wide, or wider than high, are crossed as closely.
+    // Non-square pixels need as small a step along their shorter side.
     const double step_px = kStep_px * std::min(1.0, 1.0 / axes.beta);
     const int around = 8 + static_cast<int>(2.0 * kPi * radius_px / step_px);
     for (int k = 0; k < around; ++k) {

@@ -7,31 +7,32 @@
 
 namespace azimuth {
 
-/// The directions that one pixel covers: from `middle` by `half_rad` (azimuth, elevation) to each side.
+/// The directions that one pixel covers: `middle` plus or minus `half_rad` (azimuth, elevation).
 struct DirectionCell {
   Direction middle;
   Eigen::Vector2d half_rad = Eigen::Vector2d::Zero();
 };
 
-/// The inverse of a camera by a table (SPEC II.2): least and greatest azimuth and elevation of all directions that fall
-/// into a pixel, found by sending directions through the camera, so close together that no pixel is missed. Azimuths
-/// are circular: the pixel at the centre covers them all.
+/// The inverse of a camera as a table (mathematics II.2): for each pixel the least and greatest azimuth and elevation
+/// of all directions that project into it. The table is built by projecting directions so close together that no pixel
+/// is missed. Azimuths are circular; the pixel at the centre covers all of them.
 ///
-/// As good as a pixel, no better: for comparison with CameraModel::direction(), which is exact.
+/// The accuracy is one pixel. The table serves for comparison with CameraModel::direction(), which is exact.
 ///
 /// Thread contract: reentrant. Nothing allocates after construction, which takes a fraction of a second.
 class DirectionTable {
  public:
   DirectionTable(const CameraModel& camera, int width_px, int height_px);
 
-  /// Of the pixel around `pixel`; nothing outside of the image and for pixels into which no direction falls.
+  /// The cell of the pixel around `pixel`; nullopt outside the image and for pixels into which no direction projects.
   std::optional<DirectionCell> at(const Pixel& pixel) const;
 
  private:
   struct Extent {
-    float azimuth_rad = 0.0F;                      // the first one seen; offsets are from here
-    float least_rad = 0.0F, greatest_rad = -1.0F;  // offsets; the greatest below the least: nothing seen
-    float low_rad = 0.0F, high_rad = 0.0F;         // elevations
+    float azimuth_rad = 0.0F;  // The first azimuth seen; the offsets below are relative to it.
+    // Least and greatest azimuth offset; greatest < least means that the pixel has no direction.
+    float least_rad = 0.0F, greatest_rad = -1.0F;
+    float low_rad = 0.0F, high_rad = 0.0F;  // Least and greatest elevation
   };
   void widen(const Pixel& pixel, const Direction& direction);
   std::optional<std::size_t> index(const Pixel& pixel) const;

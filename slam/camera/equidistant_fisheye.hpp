@@ -7,10 +7,11 @@
 
 namespace azimuth {
 
-/// A fisheye that looks straight up: r = f theta, theta from the optical axis, elevation = pi/2 - theta.
+/// A fisheye that looks straight up: r = f theta, where theta is the angle from the optical axis and elevation = pi/2 -
+/// theta.
 struct EquidistantFisheye {
-  double focal_length_px = 0.0;  ///< f: pixels per radian
-  double theta_max_rad = 0.0;    ///< the lens sees up to here
+  double focal_length_px = 0.0;  ///< f, in pixels per radian
+  double theta_max_rad = 0.0;    ///< The greatest theta that the lens sees
 
   std::optional<std::string_view> problem() const {
     if (!(focal_length_px > 0.0 && focal_length_px < 1e9)) return "the focal length must be positive";

@@ -6,14 +6,14 @@
 
 namespace azimuth {
 
-/* Foci F (viewpoint) and C (camera) at distance 2c on the axis, c^2 = a^2 + b^2, F above C. A point X of the mirror has
- * |XC| - |XF| = 2a.
+/* The foci F (viewpoint) and C (camera) are at distance 2c on the axis, c^2 = a^2 + b^2, with F above C. A point X of
+ * the mirror satisfies |XC| - |XF| = 2a.
  *
  * Seen from C at the angle t off the axis, tan t = r / f:  |XC| = b^2 / (c cos t - a)
  *   tan elevation = (2ac - (a^2 + c^2) cos t) / (b^2 sin t)
  * Seen from F at the elevation e:                           |XF| = b^2 / (a - c sin e)
  *   r / f = b^2 cos e / (2ac - (a^2 + c^2) sin e)
- * Either denominator of the distances vanishes in the direction of the asymptote, where the mirror ends.
+ * The denominators of the distances vanish in the direction of the asymptote, where the mirror ends.
  */
 
 std::optional<std::string_view> HyperbolicMirror::problem() const {
@@ -30,7 +30,7 @@ std::optional<ElevationAt> HyperbolicMirror::elevation_at(double radius_px) cons
   if (!(radius_px >= 0.0) || !(c_mm * cos_t > a_mm)) return std::nullopt;
   const double squares = a_mm * a_mm + c_mm * c_mm;
   const double up = 2.0 * a_mm * c_mm - squares * cos_t, out = b_mm * b_mm * sin_t;
-  // d/dt of atan2(up, out); d t / d r = cos^2 t / f
+  // d/dt of atan2(up, out); d t / d r = cos^2 t / f.
   const double per_t = (squares * sin_t * out - up * b_mm * b_mm * cos_t) / (up * up + out * out);
   return ElevationAt{std::atan2(up, out), per_t * cos_t * cos_t / focal_length_px};
 }

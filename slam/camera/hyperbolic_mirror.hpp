@@ -6,10 +6,11 @@
 
 namespace azimuth {
 
-/// A hyperbolic mirror z^2 / a^2 - r^2 / b^2 = 1 above a perspective camera that looks up into it, the optical centre
-/// in one focus. Rays meet in the other one: the viewpoint. The image's centre looks straight down.
+/// A hyperbolic mirror z^2 / a^2 - r^2 / b^2 = 1 above a perspective camera that looks up into it. The camera's optical
+/// centre is in one focus; the other focus, where the rays meet, is the viewpoint. The centre of the image looks
+/// straight down.
 struct HyperbolicMirror {
-  double a_mm = 0.0;  ///< only the ratio of a to b matters for directions
+  double a_mm = 0.0;  ///< Only the ratio of a to b matters for directions
   double b_mm = 0.0;
   double focal_length_px = 0.0;
 

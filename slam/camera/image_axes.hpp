@@ -1,6 +1,6 @@
 #pragma once
-// Where azimuths are in the image of a camera whose optical axis is vertical. This alone serves a robot that only wants
-// azimuths: neither the shape of a mirror nor radial distortion matter for them (SPEC I.5).
+// The mapping of pixels to azimuths for a camera with a vertical optical axis. Azimuths depend neither on the shape of
+// a mirror nor on radial distortion, so this suffices for a robot that uses only azimuths (mathematics I.5).
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -10,25 +10,26 @@
 
 namespace azimuth {
 
-/// A point in the image: u to the right, v down; whole numbers are the centres of pixels [px].
+/// A point in the image: u to the right, v down; integer values are pixel centres [px].
 using Pixel = Eigen::Vector2d;
 
 /// A pixel in polar coordinates about the optical axis.
 struct PolarPixel {
   double radius_px = 0.0;
-  double azimuth_rad = 0.0;  ///< in the robot's frame, [-pi, pi); arbitrary at the centre
+  double azimuth_rad = 0.0;  ///< In the robot's frame, in [-pi, pi); arbitrary at the centre.
 };
 
-/// u = u0 + r cos psi, v = beta (v0 + r sin psi), azimuth = direction * psi + offset   (SPEC I.5, II.2)
+/// u = u0 + r cos psi, v = beta (v0 + r sin psi), azimuth = direction * psi + offset   (mathematics I.5, II.2)
 ///
 /// Thread contract: reentrant.
 struct ImageAxes {
-  Pixel centre_px = Pixel::Zero();  ///< (u0, v0); v0 in pixels as wide as high, so that beta applies to it as well
-  double beta = 1.0;                ///< height of a pixel over its width, positive
-  int azimuth_direction = -1;       ///< 1 or -1; -1: clockwise in the image is counter-clockwise about the robot
-  double azimuth_offset_rad = 0.0;  ///< azimuth of the image's u axis
+  Pixel centre_px = Pixel::Zero();  ///< (u0, v0); v0 is in square pixels, so beta applies to it too.
+  double beta = 1.0;                ///< Height of a pixel over its width; positive.
+  int azimuth_direction = -1;       ///< 1 or -1; for -1, clockwise in the image is counter-clockwise about the robot.
+  double azimuth_offset_rad = 0.0;  ///< Azimuth of the image's u axis
 
-  /// Nearer to the centre than this, pixels say little of the azimuth: its uncertainty is taken from here.
+  /// Within this distance of the centre, pixels hardly constrain the azimuth; its uncertainty is taken at this
+  /// distance.
   static constexpr double kNearCentre_px = 2.0;
 
   PolarPixel polar(const Pixel& pixel) const {
@@ -44,7 +45,7 @@ struct ImageAxes {
     return {centre_px.x() + polar.radius_px * std::cos(psi), beta * (centre_px.y() + polar.radius_px * std::sin(psi))};
   }
 
-  /// d (azimuth, radius) / d (u, v), with the radius below the azimuth's denominator at least kNearCentre_px.
+  /// d (azimuth, radius) / d (u, v); the radius in the denominator of the azimuth's row is at least kNearCentre_px.
   Eigen::Matrix2d polar_jacobian(const Pixel& pixel) const {
     const Eigen::Vector2d from_centre = square(pixel);
     const double radius_px = from_centre.norm();
@@ -55,7 +56,7 @@ struct ImageAxes {
   }
 
  private:
-  /// From the centre, in pixels as wide as high.
+  /// Offset from the centre, in square pixels.
   Eigen::Vector2d square(const Pixel& pixel) const {
     return {pixel.x() - centre_px.x(), pixel.y() / beta - centre_px.y()};
   }

@@ -9,7 +9,8 @@ namespace azimuth {
 
 namespace {
 
-/// Counts the edges that a ray to the right crosses. Edges own their upper end only, so that a corner counts once.
+/// Counts the edges that a ray to the right crosses. An edge includes only one of its ends, so that a corner counts
+/// once.
 bool inside(const std::vector<Pixel>& corners, const Pixel& point) {
   bool odd = false;
   for (std::size_t i = 0; i < corners.size(); ++i) {

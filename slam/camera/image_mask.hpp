@@ -8,16 +8,20 @@
 
 namespace azimuth {
 
-/// What of an image shows the world: a ring about the optical axis, without some polygons (struts, cables, antennas).
+/// The part of an image that shows the world: a ring about the optical axis without some polygons (struts, cables,
+/// antennas).
 struct MaskShape {
-  double inner_px = 0.0;                                      ///< radius hidden by robot and mounting; itself visible
-  double outer_px = std::numeric_limits<double>::infinity();  ///< radius of the rim; itself visible
-  std::vector<std::vector<Pixel>> hidden;                     ///< corners of each polygon, in either sense of rotation
+  /// Radius of the inner part that robot and mounting hide; a pixel at exactly this radius is visible.
+  double inner_px = 0.0;
+  /// Radius of the rim; a pixel at exactly this radius is visible.
+  double outer_px = std::numeric_limits<double>::infinity();
+  /// Corners of each hidden polygon, in either sense of rotation
+  std::vector<std::vector<Pixel>> hidden;
 };
 
-/// Tells visible pixels from hidden ones. A polygon of fewer than three corners hides nothing; one that crosses itself
-/// hides what an odd number of its edges surrounds. Of two polygons that share an edge, exactly one hides a point on
-/// it.
+/// Tells visible pixels from hidden ones. A polygon with fewer than three corners hides nothing; a self-intersecting
+/// polygon hides points by the even-odd rule. Of two polygons that share an edge, exactly one hides a point on the
+/// edge.
 ///
 /// Thread contract: reentrant.
 class ImageMask {
@@ -26,7 +30,7 @@ class ImageMask {
 
   bool visible(const Pixel& pixel) const;
 
-  /// Row by row, one byte a pixel: 255 visible, 0 hidden, as image processing libraries like it.
+  /// Row by row, one byte a pixel: 255 visible, 0 hidden (the usual mask format of image processing libraries).
   std::vector<std::uint8_t> raster(int width_px, int height_px) const;
 
  private:

@@ -5,7 +5,7 @@
 namespace azimuth {
 namespace {
 
-/// From radius to elevation, by model; those that say nothing about elevations have none.
+/// The radial profile of each model; models without elevations have none.
 struct ProfileOf {
   double theta_max_rad;
 
@@ -25,9 +25,9 @@ struct ProfileOf {
   Profile operator()(const PolynomialRig& lens) const { return PolynomialFisheye{lens.a, theta_max_rad}; }
 };
 
-constexpr double kMountedByEye_rad = 0.02;  // a degree, of roll and of pitch
+constexpr double kMountedByEye_rad = 0.02;  // One degree, for roll and for pitch
 
-/// Whole numbers are the centres of pixels, so the middle of 4 of them is at 1.5.
+/// Integer values are pixel centres, so the middle of 4 pixels is at 1.5.
 double middle(const std::optional<int>& pixels) { return pixels ? 0.5 * (*pixels - 1) : kNotSet; }
 
 }  // namespace

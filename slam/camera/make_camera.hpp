@@ -9,22 +9,24 @@
 
 namespace azimuth {
 
-/// The centre and the azimuths of the image. Missing centre: of the middle of the image if its size is known.
+/// The centre and azimuth mapping of the image. If the rig gives no centre, the middle of the image is used, provided
+/// that its size is known.
 ImageAxes axes_of(const ImageRig& image);
 
 CameraTilt tilt_of(const CameraRig& rig);
 
-/// What the rig leaves unknown of that: what it says or, where it is silent, how well a camera is mounted by eye. 0 of
-/// one that knows nothing of elevations.
+/// Standard deviation of the tilt: the rig's value or, if it gives none, that of a camera mounted by eye. 0 for a model
+/// without elevations.
 double sigma_tilt_rad(const CameraRig& rig);
 
 MaskShape mask_of(const ImageRig& image);
 
-/// Whether images like that are of the rig's size, which directions are worked out for. Any are where it names none.
+/// Whether images of this format have the rig's image size, for which directions are computed. True if the rig gives no
+/// size.
 bool is_size_of(const FrameFormat& format, const ImageRig& image);
 
-/// The camera with its mirror's or lens's shape. Nothing, and why in `problem`, when the rig describes no such camera
-/// ("bearings", "radial") or one with parameters that make none.
+/// The camera with its mirror or lens profile. Returns nullopt and the reason in `problem` if the model has no
+/// elevations ("bearings", "radial") or its parameters are not valid.
 std::optional<CameraModel> camera_of(const CameraRig& rig, std::string& problem);
 
 }  // namespace azimuth

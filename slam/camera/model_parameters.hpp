@@ -1,5 +1,5 @@
 #pragma once
-// The parameters of a camera's model by their keys in rig.toml.
+// The parameters of a camera model, by their keys in rig.toml.
 
 #include <array>
 #include <string_view>
@@ -12,14 +12,14 @@ namespace azimuth {
 
 struct ModelParameter {
   std::string_view key;
-  double* value;          ///< in the model
-  bool is_needed = true;  ///< without it the model has no meaning
+  double* value;          ///< Points into the model
+  bool is_needed = true;  ///< Whether the model is undefined without this parameter
 };
 
-/// All of the model's own, of which it stays the owner.
+/// All parameters of `model`, as pointers into it.
 std::vector<ModelParameter> parameters(ModelRig& model);
 
-/// One of each model, without parameters; at the index that its kind has in ModelRig.
+/// One default-constructed model of each kind, at its index in ModelRig.
 std::array<ModelRig, std::variant_size_v<ModelRig>> all_models();
 
 }  // namespace azimuth

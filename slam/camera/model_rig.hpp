@@ -1,6 +1,6 @@
 #pragma once
-// The models of a camera in rig.toml, each with its own parameters and nothing else. One that nobody set is NaN, and
-// makes no camera.
+// The camera models of rig.toml, each with its own parameters only. An unset parameter is NaN and makes the camera
+// invalid.
 
 #include <array>
 #include <limits>
@@ -11,21 +11,21 @@ namespace azimuth {
 
 inline constexpr double kNotSet = std::numeric_limits<double>::quiet_NaN();
 
-/// Directions come ready made: no image.
+/// Bearings come from outside: there is no image.
 struct BearingsRig {
   static constexpr std::string_view kName = "bearings";
   static constexpr bool kLooksUp = false;
   friend bool operator==(const BearingsRig&, const BearingsRig&) = default;
 };
 
-/// Azimuths only: the image's centre, direction and offset are all that is known.
+/// Azimuths only: centre, azimuth direction and azimuth offset of the image are known, elevations are not.
 struct RadialRig {
   static constexpr std::string_view kName = "radial";
   static constexpr bool kLooksUp = false;
   friend bool operator==(const RadialRig&, const RadialRig&) = default;
 };
 
-/// z^2 / a^2 - r^2 / b^2 = 1, the camera's optical centre in the other focus.
+/// z^2 / a^2 - r^2 / b^2 = 1; the viewpoint is in one focus, the camera's optical centre in the other.
 struct HyperbolicMirrorRig {
   static constexpr std::string_view kName = "hyperbolic_mirror";
   static constexpr bool kLooksUp = false;
@@ -42,7 +42,7 @@ struct ParabolicMirrorRig {
   friend bool operator==(const ParabolicMirrorRig&, const ParabolicMirrorRig&) = default;
 };
 
-// Fisheyes also need ImageRig::theta_max_rad; theta is the angle from the optical axis.
+// Fisheye models also need ImageRig::theta_max_rad; theta is the angle from the optical axis.
 
 /// r = a tan(theta / b) + c sin(theta / d).
 struct PajdlaRig {
@@ -56,11 +56,11 @@ struct PajdlaRig {
 struct EquidistantRig {
   static constexpr std::string_view kName = "equidistant";
   static constexpr bool kLooksUp = true;
-  double focal_length_px = kNotSet;  ///< pixels per radian
+  double focal_length_px = kNotSet;  ///< f, in pixels per radian
   friend bool operator==(const EquidistantRig&, const EquidistantRig&) = default;
 };
 
-/// theta = atan2(r, -(a0 + a1 r + a2 r^2 + a3 r^3 + a4 r^4)), r in pixels.
+/// theta = atan2(r, -(a0 + a1 r + a2 r^2 + a3 r^3 + a4 r^4)), with r in pixels.
 struct PolynomialRig {
   static constexpr std::string_view kName = "polynomial";
   static constexpr bool kLooksUp = true;
@@ -71,17 +71,17 @@ struct PolynomialRig {
 using ModelRig = std::variant<BearingsRig, RadialRig, HyperbolicMirrorRig, ParabolicMirrorRig, PajdlaRig,
                               EquidistantRig, PolynomialRig>;
 
-/// As rig.toml has it.
+/// The model's name in rig.toml.
 constexpr std::string_view name(const ModelRig& model) {
   return std::visit([](const auto& each) { return each.kName; }, model);
 }
 
-/// Whether the camera looks at the ceiling: directions come with elevations, and from above.
+/// Whether the camera looks at the ceiling, so that directions have elevations above the horizon.
 constexpr bool looks_up(const ModelRig& model) {
   return std::visit([](const auto& each) { return each.kLooksUp; }, model);
 }
 
-/// Whether there is an image behind the directions.
+/// Whether the directions come from images.
 constexpr bool takes_images(const ModelRig& model) { return !std::holds_alternative<BearingsRig>(model); }
 
 }  // namespace azimuth

@@ -10,8 +10,8 @@ namespace azimuth {
 
 namespace {
 
-/// theta with radius_at_px(theta) = radius_px in [0, theta_max], where the radius grows strictly. A step of Newton's
-/// that leaves the bracket is replaced by halving it.
+/// Solves radius_at_px(theta) = radius_px for theta in [0, theta_max], where the radius grows strictly. A Newton step
+/// that leaves the bracket is replaced by bisection.
 double theta_at(const PajdlaFisheye& fisheye, double radius_px) {
   double low = 0.0, high = fisheye.theta_max_rad;
   double theta = radius_px / fisheye.radius_slope_px_per_rad(0.0);

@@ -8,9 +8,10 @@
 
 namespace azimuth {
 
-/// A parabolic mirror over a telecentric lens: r = h tan(pi/4 + elevation/2). The image's centre looks straight down.
+/// A parabolic mirror with a telecentric lens: r = h tan(pi/4 + elevation/2). The centre of the image looks straight
+/// down.
 struct ParabolicMirror {
-  double horizon_radius_px = 0.0;  ///< h: where the horizon lies; the mirror's focal parameter in pixels
+  double horizon_radius_px = 0.0;  ///< h: the radius of the horizon, which is the mirror's focal parameter in pixels.
 
   std::optional<std::string_view> problem() const {
     if (!(horizon_radius_px > 0.0 && std::isfinite(horizon_radius_px))) return "the horizon's radius must be positive";
@@ -27,7 +28,7 @@ struct ParabolicMirror {
   }
 
  private:
-  static constexpr double kHighest_rad = kPi / 2.0 - 1e-6;  // straight up is infinitely far out
+  static constexpr double kHighest_rad = kPi / 2.0 - 1e-6;  // The zenith is at infinite radius
 };
 
 }  // namespace azimuth

@@ -9,7 +9,7 @@
 namespace azimuth {
 namespace {
 
-constexpr double kFarthest_px = 1e5;  // no image is larger
+constexpr double kFarthest_px = 1e5;  // No image is larger
 constexpr int kSteps = 2048;
 
 struct Value {
@@ -26,8 +26,8 @@ Value value_at(const PolynomialFisheye& fisheye, double radius_px) {
   return value;
 }
 
-/// The first radius, by steps of 1/64 of the focal length, from which theta is at least `theta_rad`; nothing if theta
-/// ceases to grow before.
+/// The first radius, in steps of 1/64 of the focal length, at which theta is at least `theta_rad`; nullopt if theta
+/// stops growing before.
 std::optional<double> bracket_px(const PolynomialFisheye& fisheye, double theta_rad) {
   const double step_px = -fisheye.a[0] / 64.0;
   for (int k = 1; k <= kSteps && k * step_px <= kFarthest_px; ++k) {
@@ -38,8 +38,8 @@ std::optional<double> bracket_px(const PolynomialFisheye& fisheye, double theta_
   return std::nullopt;
 }
 
-/// The radius with theta_at_rad(radius) = theta_rad in [0, end_px], where theta grows strictly. A step of Newton's that
-/// leaves the bracket is replaced by halving it.
+/// Solves theta_at_rad(radius) = theta_rad for the radius in [0, end_px], where theta grows strictly. A Newton step
+/// that leaves the bracket is replaced by bisection.
 double radius_at_px(const PolynomialFisheye& fisheye, double theta_rad, double end_px) {
   double low = 0.0, high = end_px, radius = std::min(-fisheye.a[0] * theta_rad, high);
   for (int i = 0; i < 100; ++i) {
@@ -65,7 +65,7 @@ double PolynomialFisheye::theta_at_rad(double radius_px) const {
   return std::atan2(radius_px, -value_at(*this, radius_px).f);
 }
 
-/// tan(theta) = r / -f:  d theta / d r = (r f' - f) / (r^2 + f^2)
+/// From tan(theta) = r / -f: d theta / d r = (r f' - f) / (r^2 + f^2).
 double PolynomialFisheye::theta_slope_rad_per_px(double radius_px) const {
   const Value value = value_at(*this, radius_px);
   return (radius_px * value.slope - value.f) / (radius_px * radius_px + value.f * value.f);
@@ -83,7 +83,7 @@ std::optional<std::string_view> PolynomialFisheye::problem() const {
 }
 
 std::optional<ElevationAt> PolynomialFisheye::elevation_at(double radius_px) const {
-  // Beyond theta_max the polynomial may turn back: only the radius tells.
+  // Beyond theta_max the polynomial may turn back, so only the radius can be checked.
   if (!(radius_px >= 0.0 && radius_px <= radius_max_px)) return std::nullopt;
   return ElevationAt{kPi / 2.0 - theta_at_rad(radius_px), -theta_slope_rad_per_px(radius_px)};
 }

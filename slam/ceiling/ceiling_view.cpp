@@ -10,10 +10,10 @@ namespace azimuth {
 namespace {
 
 constexpr double kMostDetection = 0.95;
-// Further down a ceiling 5 m above the camera is 18 m away: a map that grows there believes its own errors of second
-// order.
+// Farther from the zenith, a ceiling 5 m above the camera is more than 18 m away, and a map initialised there becomes
+// overconfident through second-order errors.
 constexpr double kUsualMaxZenith_rad = 1.3;
-constexpr double kVagueDirection_rad = 0.1;  // where a lamp is due so vaguely nothing is missed
+constexpr double kVagueDirection_rad = 0.1;  // A lamp with a more uncertain direction is not counted as missed
 
 double detection_probability_of(const Rig& rig, const LampsInView& settings) {
   const double by_rig = rig.camera.image.detection_probability.value_or(kUsualDetection);
@@ -80,7 +80,7 @@ double CeilingView::detection(const PredictedDirection& predicted) const {
   return (at_rim ? 0.5 : 1.0) * (1.0 - std::exp(log_missed_));
 }
 
-/// That it is not farther from the zenith than the camera sees.
+/// Probability that the lamp is within max_zenith_rad_ of the zenith.
 double CeilingView::chance_of_view(const PredictedDirection& predicted) const {
   const double length = predicted.offset.m.norm();
   if (!(length > 0.0)) return 1.0;

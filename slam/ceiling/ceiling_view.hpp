@@ -11,30 +11,30 @@
 
 namespace azimuth {
 
-/// The directions of use in an image: above the horizon, as far down as the camera is to be trusted.
+/// The usable directions of an image: those no farther from the zenith than the camera is to be trusted.
 struct CeilingImage {
   std::vector<LampSeen> seen;
-  std::vector<MeasuredDirection> measured;  ///< the same, for matching
-  std::vector<std::size_t> bearing_of;      ///< of each, in the image
-  std::size_t lights = 0;                   ///< how many they were before some were left out
-  bool crowded = false;                     ///< they were more than there is room for
-  bool without_elevation = false;           ///< there were bearings, but none of use
+  std::vector<MeasuredDirection> measured;  ///< The same directions, in the form for matching
+  std::vector<std::size_t> bearing_of;      ///< For each direction, the index of its bearing in the image
+  std::size_t lights = 0;                   ///< Number of directions before LampMatcher left some out
+  bool crowded = false;                     ///< Whether there were more directions than LampEkfSettings::max_directions
+  bool without_elevation = false;           ///< Whether there were bearings but none with an elevation
 
-  /// Puts the direction `from` in the place of `to`, which is not behind it.
+  /// Copies the direction at index `from` to index `to`, where `to` <= `from`.
   void move(std::size_t from, std::size_t to);
-  /// Leaves the first `size` of them.
+  /// Keeps the first `size` directions.
   void shorten(std::size_t size);
   void clear() { shorten(0); }
 };
 
-/// A lamp as the camera should see it.
+/// The predicted direction of a lamp.
 struct PredictedDirection {
-  std::size_t lamp;  ///< index
+  std::size_t lamp;  ///< Index of the lamp
   PredictedLamp offset;
-  Eigen::Matrix2d covariance;  ///< of the offset per metre
+  Eigen::Matrix2d covariance;  ///< Covariance of the offset per metre of height
 };
 
-/// What a camera that looks up sees of lamps.
+/// Field of view and detection model of a camera that looks up at lamps.
 ///
 /// Thread contract: reentrant.
 class CeilingView {
@@ -43,21 +43,24 @@ class CeilingView {
 
   double max_zenith_rad() const { return max_zenith_rad_; }
   double solid_angle_sr() const;
-  /// That a lamp in view is seen, and ln of the probability that it is not.
+  /// Probability of detection of a lamp in the field of view; log_missed() is ln of the probability of a miss.
   double detection_probability() const { return detection_probability_; }
   double log_missed() const { return log_missed_; }
   const LampDirections& directions() const { return directions_; }
 
-  /// Replaces `out`, the camera's errors as estimated taken out and their uncertainty added to the noise.
+  /// Replaces the content of `out` with the usable directions of `bearings`. The estimated camera errors are subtracted
+  /// from the directions, and their covariance is added to the noise.
   void measure(const BearingSet& bearings, const CameraErrors& camera, CeilingImage& out) const;
 
-  /// Where its absence would say something: well inside the view, and known not too vaguely.
+  /// Whether the lamp's absence from an image is significant: it is well inside the field of view, and its predicted
+  /// direction is accurate.
   bool is_in_view(const PredictedDirection& predicted) const;
-  /// That an image does not show the lamp.
+  /// Probability that an image does not show the lamp.
   double chance_of_miss(const PredictedDirection& predicted) const {
     return 1.0 - detection(predicted) * chance_of_view(predicted);
   }
-  /// Of the lamp when it is in view. At the rim, where it may be cut, half of what is usual.
+  /// Probability of detection of the lamp if it is in the field of view. Near the rim, where the image may cut the
+  /// lamp, the probability is half of the usual value.
   double detection(const PredictedDirection& predicted) const;
 
  private:

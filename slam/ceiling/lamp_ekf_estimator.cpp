@@ -12,12 +12,13 @@
 namespace azimuth {
 namespace {
 
-constexpr std::size_t kFewestExpected = 3;      // lamps that must be due before their absence says anything of the pose
-constexpr int kMostDoubts = 5;                  // images that must agree after many that did not
-constexpr std::size_t kFewestLampsToPlace = 3;  // lamps in an image that place the robot better than the search did
+// Lamps that must be expected before their absence says anything about the pose
+constexpr std::size_t kFewestExpected = 3;
+constexpr int kMostDoubts = 5;  // Upper bound on doubts_
+// With so many matched lamps, one image determines the pose better than the relocalisation
+constexpr std::size_t kFewestLampsToPlace = 3;
 
-LampEkfModel filter_model(const Rig& rig, const LampEkfSettings& settings,
-                          const std::optional<SecondBeginning>& again = {}) {
+LampEkfModel filter_model(const Rig& rig, const LampEkfSettings& settings, const std::optional<Restart>& again = {}) {
   LampEkfModel model;
   model.retraction = settings.invariant_update ? JointState::Retraction::invariant : JointState::Retraction::additive;
   model.camera_height_m = rig.camera.image.viewpoint_height_m.value_or(kUnknownHeight_m);
@@ -34,7 +35,7 @@ LampEkfModel filter_model(const Rig& rig, const LampEkfSettings& settings,
   return model;
 }
 
-/// As a search wants it.
+/// Converts a measured direction to the form of a relocalisation.
 SeenDirection seen_direction(const MeasuredDirection& measured) {
   const Eigen::Vector2d m = measured.seen.offset_per_metre();
   const double zenith_rad = std::atan(m.norm());
@@ -47,12 +48,10 @@ SeenDirection seen_direction(const MeasuredDirection& measured) {
 
 }  // namespace
 
-LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings,
-                                   const std::optional<SecondBeginning>& again,
-                                   const RelocalisationSettings& relocalisation)
+LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings, const std::optional<Restart>& again,
+                                   const HealthSettings& health, const RelocalisationSettings& relocalisation)
     : EkfOnMap(rig, LampEkf(filter_model(rig, settings, again)),
-               LampMap(settings, {rig, settings.view}, again ? again->height : std::nullopt), settings.health,
-               relocalisation),
+               LampMap(settings, {rig, settings.view}, again ? again->height : std::nullopt), health, relocalisation),
       settings_(settings),
       view_(rig, settings.view),
       matcher_(settings, view_) {
@@ -62,14 +61,14 @@ LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settin
 }
 
 LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings, const MapStart& start,
-                                   const RelocalisationSettings& relocalisation)
-    : LampEkfEstimator(rig, settings, std::optional<SecondBeginning>(), relocalisation) {
+                                   const HealthSettings& health, const RelocalisationSettings& relocalisation)
+    : LampEkfEstimator(rig, settings, std::optional<Restart>(), health, relocalisation) {
   if (start.map != nullptr) begin_on(start);
 }
 
-LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings, const SecondBeginning& again,
-                                   const RelocalisationSettings& relocalisation)
-    : LampEkfEstimator(rig, settings, std::optional(again), relocalisation) {
+LampEkfEstimator::LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings, const Restart& again,
+                                   const HealthSettings& health, const RelocalisationSettings& relocalisation)
+    : LampEkfEstimator(rig, settings, std::optional(again), health, relocalisation) {
   map_.continue_from(again.next_id);
 }
 
@@ -94,12 +93,12 @@ void LampEkfEstimator::update(const BearingSet& bearings) {
   if (lost_.is_in_doubt()) return;
   if (may_judge_lamps()) map_.weigh_evidence(ekf_, image_, matches);
   apply(matches, bearings);
-  if (beginning_.extends()) extend_map(matches);
+  if (start_decision_.extends()) extend_map(matches);
 }
 
 void LampEkfEstimator::measure(const BearingSet& bearings) {
-  hearing_.troubles.add(bearings.trouble, hearing_.path_m);
-  map_.begin_image(hearing_.path_m);
+  recognition_.troubles.add(bearings.trouble, recognition_.path_m);
+  map_.begin_image(recognition_.path_m);
   view_.measure(bearings, camera_or_exact(), image_);
   sightings_.clear();
   lamps_of_bearings_.assign(bearings.bearings.size(), kNoLamp);
@@ -117,14 +116,14 @@ bool LampEkfEstimator::is_due(const PredictedDirection& predicted) const {
   return map_[predicted.lamp].confirmed && view_.is_in_view(predicted);
 }
 
-/// How many lamps of the map are in view, and how many directions are of one of those.
+/// Counts the expected confirmed lamps and the directions that they explain.
 ImageAgreement LampEkfEstimator::agreement(const LampMatches& matches) const {
   if (image_.crowded || map_.confirmed() < kFewestEstablished) return {};
   ImageAgreement agreement{.bearings = static_cast<int>(image_.measured.size())};
   double gates_sr = 0.0;
   for (const PredictedDirection& predicted : matches.predicted) {
     if (!is_due(predicted)) continue;
-    // m is a tangent: towards the rim a step of it is a smaller angle.
+    // m is the tangent of the zenith angle: towards the rim, a step of m is a smaller angle.
     const double m2 = predicted.offset.m.squaredNorm();
     gates_sr += kPi * settings_.gates.chi2 * std::sqrt(predicted.covariance.determinant()) / std::pow(1.0 + m2, 1.5);
     ++agreement.expected;
@@ -138,8 +137,8 @@ ImageAgreement LampEkfEstimator::agreement(const LampMatches& matches) const {
   return agreement;
 }
 
-/// A third of the lamps that should be seen are not, although there are lights: then the pose is wrong, not the map.
-/// Below lamps at regular distances some fit by chance, wherever the robot is.
+/// Whether more than a third of the expected lamps is not recognised although there are enough lights. Then the pose is
+/// wrong, not the map. Under a regular grid of lamps some directions match by chance at any pose.
 bool LampEkfEstimator::contradicts_the_map(const LampMatches& matches) const {
   std::size_t due = 0, recognised = 0;
   for (const PredictedDirection& predicted : matches.predicted) due += is_due(predicted) ? 1 : 0;
@@ -149,22 +148,23 @@ bool LampEkfEstimator::contradicts_the_map(const LampMatches& matches) const {
   return due >= kFewestExpected && possible >= kFewestExpected - 1 && 3 * recognised < 2 * possible;
 }
 
-/// Such an image changes nothing; after a few of them the pose is taken to be twice as uncertain.
+/// An image that contradicts the map does not update the filter. After some such images the covariance of the pose is
+/// doubled.
 void LampEkfEstimator::doubt() {
   counts_.rejected += image_.measured.size();
-  ++hearing_.contradictions;
+  ++recognition_.contradictions;
   doubts_ = std::min(doubts_ + 1, kMostDoubts);
-  if (settings_.recover_after_images <= 0 || hearing_.contradictions < settings_.recover_after_images) return;
-  hearing_.contradictions = 0;
-  ++hearing_.deaf_streaks;
+  if (settings_.recover_after_images <= 0 || recognition_.contradictions < settings_.recover_after_images) return;
+  recognition_.contradictions = 0;
+  ++recognition_.inflations;
   ++counts_.recovered;
   const Eigen::Matrix3d P = ekf_.state().pose_covariance();
-  if (!is_too_uncertain(P, settings_.health)) ekf_.inflate_robot(P);
+  if (!is_too_uncertain(P, health_)) ekf_.inflate_robot(P);
 }
 
-/// One image that agrees by chance must not begin a second map beside the first.
+/// Counts an image that agrees with the map. A single image may agree by chance, so it must not start a second map.
 void LampEkfEstimator::agree() {
-  hearing_.contradictions = std::max(hearing_.contradictions - 1, 0);
+  recognition_.contradictions = std::max(recognition_.contradictions - 1, 0);
   doubts_ = std::max(doubts_ - 1, 0);
 }
 
@@ -180,20 +180,20 @@ void LampEkfEstimator::apply(const LampMatches& matches, const BearingSet& beari
     ++counts_.accepted;
     map_.was_seen(paired->lamp);
     lamps_of_bearings_[image_.bearing_of[i]] = lamp.id;
-    if (!lamp.confirmed) continue;  // not published: nobody would know what it refers to
+    if (!lamp.confirmed) continue;  // Lamps on probation are not published, so nobody could interpret this id
     const Eigen::Vector2d variance_rad2 = view_.directions().covariance(bearing).diagonal();
     sightings_.push_back({.landmark_id = lamp.id,
                           .azimuth_rad = bearing.azimuth_rad,
                           .sigma_rad = std::sqrt(variance_rad2.x()),
                           .elevation_rad = bearing.elevation_rad,
                           .sigma_elevation_rad = std::sqrt(variance_rad2.y())});
-    hearing_.recognised();
-    hearing_.deaf_streaks = 0;
+    recognition_.recognised();
+    recognition_.inflations = 0;
   }
   map_.note_apart(matches);
 }
 
-/// What may be no lamp tells nothing of the robot.
+/// Only proven lamps update the pose; detections of other lamps update these lamps alone.
 bool LampEkfEstimator::correct(const LampMatches& matches) {
   accepted_.clear();
   doubtful_.clear();
@@ -208,17 +208,17 @@ bool LampEkfEstimator::correct(const LampMatches& matches) {
   return true;
 }
 
-/// A lamp is missed only where another one was recognised: in the dark all of them are missed, and none is gone. Nor
-/// does a crowd tell, in which they are lost.
+/// Misses count only if another lamp was recognised in the image: in the dark all lamps are missed, but none is gone.
+/// In a crowded image misses do not count either.
 void LampEkfEstimator::extend_map(const LampMatches& matches) {
   if (may_judge_lamps() && !sightings_.empty()) map_.count_misses(matches);
   map_.tidy(ekf_);
   if (may_judge_lamps()) map_.add(ekf_, image_, matches);
-  if (map_.promote_converged(ekf_)) hearing_.recognised();
+  if (map_.promote_converged(ekf_)) recognition_.recognised();
 }
 
-/// The map is left as it is until the robot is found in it.
-void LampEkfEstimator::begin_search(const std::optional<Whereabouts>& within) {
+/// Starts a relocalisation. The map stays unchanged until the robot is found in it.
+void LampEkfEstimator::begin_search(const std::optional<PositionPrior>& within) {
   std::vector<KnownLandmark> known;
   for (const Lamp& lamp : lamps()) {
     if (!lamp.confirmed) continue;
@@ -229,7 +229,7 @@ void LampEkfEstimator::begin_search(const std::optional<Whereabouts>& within) {
   ekf_.place_robot(ekf_.state().pose(), LostRobot::anywhere());
 }
 
-/// As high and as far as the camera sees.
+/// The camera's height, field of view and range for a relocalisation.
 CameraView LampEkfEstimator::camera_view() const {
   double highest_m = 0.0;
   for (const Lamp& lamp : lamps())
@@ -251,8 +251,8 @@ void LampEkfEstimator::search(const BearingSet& bearings) {
   if (found) settle_at(*found, bearings);
 }
 
-/// The lamps of the last image are told apart by the pose that was found, and then place the robot: as if nothing had
-/// been known of its pose, so that it is correlated with the map as it should be.
+/// Matches the lamps of the last image at the relocalised pose, and lets them determine the pose from a wide prior. The
+/// pose thereby gets its correct correlation with the map.
 void LampEkfEstimator::settle_at(const PoseHypothesis& found, const BearingSet& bearings) {
   const Eigen::Matrix3d covariance = kDoubtfulFactor * found.covariance;
   ekf_.place_robot(found.T_map_body, covariance);
@@ -263,20 +263,20 @@ void LampEkfEstimator::settle_at(const PoseHypothesis& found, const BearingSet& 
   lost_.was_found();
   ++counts_.recovered;
   doubts_ = 0;
-  hearing_.agreed();
+  recognition_.agreed();
   map_.hold_judgement();
   apply(matches, bearings);
 }
 
 std::unique_ptr<Estimator> make_lamp_ekf_estimator(const Rig& rig, const LampEkfSettings& settings,
-                                                   const MapStart& start,
+                                                   const MapStart& start, const HealthSettings& health,
                                                    const RelocalisationSettings& relocalisation) {
   const bool exact = filter_model(rig, settings).sigma_centre_px <= 0.0;
   if (exact || start.map != nullptr || !SecondStart::is_of_use(settings.centre))
-    return std::make_unique<LampEkfEstimator>(rig, settings, start, relocalisation);
-  auto begin = [=](const std::optional<SecondBeginning>& again) -> std::unique_ptr<BeginsTwice> {
-    if (!again) return std::make_unique<LampEkfEstimator>(rig, settings, MapStart{}, relocalisation);
-    return std::make_unique<LampEkfEstimator>(rig, settings, *again, relocalisation);
+    return std::make_unique<LampEkfEstimator>(rig, settings, start, health, relocalisation);
+  auto begin = [=](const std::optional<Restart>& again) -> std::unique_ptr<RestartableEstimator> {
+    if (!again) return std::make_unique<LampEkfEstimator>(rig, settings, MapStart{}, health, relocalisation);
+    return std::make_unique<LampEkfEstimator>(rig, settings, *again, health, relocalisation);
   };
   return std::make_unique<SecondStart>(std::move(begin), settings.centre.second_start_px);
 }

@@ -14,22 +14,22 @@
 
 namespace azimuth {
 
-/// Bearing-only SLAM below lamps that all look alike, for a camera that looks up: one joint filter over the pose and
-/// lamps in space. A lamp enters the state with its first sighting, at a guessed height, and stays on probation until
-/// it was seen again from elsewhere, and known to be no reflection. Bearings need an elevation; those without are not
-/// used.
+/// Bearing-only SLAM with indistinguishable ceiling lamps, for a camera that looks up: a joint EKF over the pose and
+/// the 3D lamps. A lamp enters the state with its first detection, at a guessed height. It stays on probation until it
+/// was detected from places far enough apart and the evidence excludes a reflection. Bearings without an elevation are
+/// not used.
 ///
-/// A robot that is not where it should be (carried away, or begun from a map without knowing the pose) is searched for:
-/// what images show changes nothing until they say where it is.
+/// If the pose is wrong or unknown (the robot was carried away, or starts on a map without a known pose), the estimator
+/// runs a relocalisation: images do not change the filter until they determine the pose.
 ///
 /// Thread contract: thread-bound.
 class LampEkfEstimator final : public EkfOnMap<LampEkf, LampMap> {
  public:
-  /// A map to start from must be fit, see why_unfit_for_lamp_ekf().
+  /// A map to start from must pass why_unfit_for_lamp_ekf().
   LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings, const MapStart& start = {},
-                   const RelocalisationSettings& relocalisation = {});
-  LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings, const SecondBeginning& again,
-                   const RelocalisationSettings& relocalisation = {});
+                   const HealthSettings& health = {}, const RelocalisationSettings& relocalisation = {});
+  LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings, const Restart& again,
+                   const HealthSettings& health = {}, const RelocalisationSettings& relocalisation = {});
 
   void update(const BearingSet& bearings) override;
   void estimate(Estimate& out) const override;
@@ -38,17 +38,17 @@ class LampEkfEstimator final : public EkfOnMap<LampEkf, LampMap> {
   std::span<const Lamp> lamps() const { return map_.lamps(); }
   bool views_differ() const override;
   std::optional<UsualHeight> usual_height() const override;
-  /// Id of the lamp each bearing of the last image was used for; kNoLamp: none.
+  /// For each bearing of the last image: the id of the lamp that it corrected, or kNoLamp.
   static constexpr std::int64_t kNoLamp = -1;
   std::span<const std::int64_t> lamps_of_bearings() const { return lamps_of_bearings_; }
 
  private:
-  LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings, const std::optional<SecondBeginning>& again,
-                   const RelocalisationSettings& relocalisation);
+  LampEkfEstimator(const Rig& rig, const LampEkfSettings& settings, const std::optional<Restart>& again,
+                   const HealthSettings& health, const RelocalisationSettings& relocalisation);
 
   void begin_at(const StartPose& pose) override;
 
-  // The steps of an update.
+  // The steps of update().
   void measure(const BearingSet& bearings);
   const LampMatches& match();
   bool is_due(const PredictedDirection& predicted) const;
@@ -56,17 +56,17 @@ class LampEkfEstimator final : public EkfOnMap<LampEkf, LampMap> {
   bool contradicts_the_map(const LampMatches& matches) const;
   void doubt();
   void agree();
-  /// What an image shows, and does not, may count for and against lamps.
+  /// Whether the image's detections and misses may count as evidence for and against lamps.
   bool may_judge_lamps() const { return !image_.crowded && doubts_ == 0; }
   void apply(const LampMatches& matches, const BearingSet& bearings);
   bool correct(const LampMatches& matches);
   void extend_map(const LampMatches& matches);
-  void begin_search(const std::optional<Whereabouts>& within = {});
+  void begin_search(const std::optional<PositionPrior>& within = {});
   CameraView camera_view() const;
   void search(const BearingSet& bearings);
   void settle_at(const PoseHypothesis& found, const BearingSet& bearings);
 
-  // What it says.
+  // Output.
   CameraErrors camera_or_exact() const;
   Judgement judged_with_map(Evidence heard) const override;
   std::string_view why_starting(std::string_view usual) const;
@@ -75,14 +75,15 @@ class LampEkfEstimator final : public EkfOnMap<LampEkf, LampMap> {
   LampEkfSettings settings_;
   CeilingView view_;
   LampMatcher matcher_;
-  bool was_tracking_ = false;  ///< before it was lost: so it is probably not far
-  /// Images that contradict the map less those that agree with it, as hearing_.contradictions, whatever became of the
-  /// pose; while there are any, the map is held.
+  /// Whether the pose was being tracked before it was lost, so that the robot is probably still near this pose
+  bool was_tracking_ = false;
+  /// Number of images that contradict the map minus those that agree with it, like recognition_.contradictions but
+  /// independent of changes of the pose. The map is frozen while this is positive.
   int doubts_ = 0;
-  CeilingImage image_;                                   ///< the last one
-  std::vector<MappedLampSighting> accepted_, doubtful_;  ///< of proven lamps, and of others
+  CeilingImage image_;                                   ///< The last image
+  std::vector<MappedLampSighting> accepted_, doubtful_;  ///< Detections of proven lamps, and of other lamps
   std::vector<std::int64_t> lamps_of_bearings_;
-  std::vector<SeenDirection> directions_seen_;  ///< the measured ones, for a search
+  std::vector<SeenDirection> directions_seen_;  ///< The measured directions, in the form for a relocalisation
 };
 
 }  // namespace azimuth

@@ -1,4 +1,4 @@
-// LampEkfEstimator: what it says of robot and map.
+// LampEkfEstimator: its output.
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,8 @@
 namespace azimuth {
 namespace {
 
-constexpr double kAtTheZenith = 1e-6;  // in metres per metre of height: the azimuth means nothing
-constexpr double kViewsDiffer = 0.5;   // driven, in metres for each metre that lamps hang above the camera
+constexpr double kAtTheZenith = 1e-6;  // In metres per metre of height: nearer to the zenith the azimuth is undefined.
+constexpr double kViewsDiffer = 0.5;   // Driven distance per metre of the lamps' height above the camera
 
 /// Rows: d azimuth / dm and d zenith angle / dm.
 Eigen::Matrix2d angles_by_offset(const Eigen::Vector2d& m) {
@@ -48,13 +48,13 @@ std::optional<UsualHeight> LampEkfEstimator::usual_height() const { return map_.
 
 bool LampEkfEstimator::views_differ() const {
   const std::optional<UsualHeight> height = usual_height();
-  return height && hearing_.path_m >= kViewsDiffer * height->mean_m;
+  return height && recognition_.path_m >= kViewsDiffer * height->mean_m;
 }
 
 Judgement LampEkfEstimator::judged_with_map(Evidence heard) const {
   heard.landmarks = map_.confirmed();
   heard.max_landmarks = as_size(settings_.max_landmarks);
-  Judgement judgement = judge(heard, settings_.health);
+  Judgement judgement = judge(heard, health_);
   if (judgement.health == Health::starting) judgement.reason = why_starting(judgement.reason);
   return judgement;
 }
@@ -66,7 +66,8 @@ std::string_view LampEkfEstimator::why_starting(std::string_view usual) const {
   return usual;
 }
 
-/// All that is above the camera. The gates of both angles bound the ellipse in which a direction is taken for the lamp.
+/// Lists every lamp above the camera. The gates of both angles bound the ellipse of directions that are matched with
+/// it.
 void LampEkfEstimator::expect(std::vector<ExpectedBearing>& out) const {
   out.clear();
   for (const Lamp& lamp : lamps()) {

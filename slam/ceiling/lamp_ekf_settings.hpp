@@ -1,80 +1,81 @@
 #pragma once
-// Every parameter of the lamp EKF: unit, and a default that follows from what a hall with lamps is like.
+// Every parameter of the lamp EKF, with its unit and its default for a hall with lamps.
 
 #include "slam/estimator/centre_settings.hpp"
-#include "slam/estimator/health_settings.hpp"
 #include "slam/fastslam/lamps_in_view.hpp"
 
 namespace azimuth {
 
-/// Which direction is of which lamp.
+/// The data association of directions with lamps.
 struct LampGateSettings {
-  double chi2 = 13.8;               ///< of one direction, 2 degrees of freedom
-  double joint_probability = 0.99;  ///< joint compatibility of an image, confidence of the chi-square test
-  double new_density_per_sr = 0.1;  ///< directions of something unmapped, per steradian and image
-  double rival_log_ratio = 2.0;     ///< joint hypotheses this near in log-likelihood are rivals; 0: never
+  double chi2 = 13.8;               ///< Gate of one direction, 2 degrees of freedom
+  double joint_probability = 0.99;  ///< Confidence of the chi-square test for the joint compatibility of an image
+  double new_density_per_sr = 0.1;  ///< Expected directions of unmapped objects per steradian and image
+  /// Joint hypotheses that differ by less than this in log-likelihood are ambiguous; 0: never.
+  double rival_log_ratio = 2.0;
 
   friend bool operator==(const LampGateSettings&, const LampGateSettings&) = default;
 };
 
-/// How far above the camera lamps hang.
+/// Height of the lamps above the camera.
 struct LampHeightSettings {
   double guess_m = 4.5;
-  double sigma_m = 2.0;  ///< half of the interval it is in two times out of three; below the guess
-  double least_m = 0.3;  ///< what is found lower is no lamp
+  double sigma_m = 2.0;  ///< Half-width of the interval that contains two heights out of three; less than guess_m.
+  double least_m = 0.3;  ///< Objects below this height are not lamps
 
   friend bool operator==(const LampHeightSettings&, const LampHeightSettings&) = default;
 };
 
-/// A new lamp, not published, until it is known to be one.
+/// The probation of a new lamp, during which it is not published.
 struct LampProbationSettings {
   int confirm_after_sightings = 5;
-  double confirm_after_m = 0.5;        ///< and not until seen again after so much was driven
-  double confirm_nonlinearity = 0.25;  ///< and until its height is known to this share
-  double drop_after_m = 3.0;           ///< driven without seeing it again
-  int most = 64;                       ///< no more lamps are begun meanwhile
+  double confirm_after_m = 0.5;        ///< Least driven distance between the first and the last detection
+  double confirm_nonlinearity = 0.25;  ///< Greatest relative uncertainty of the height at confirmation
+  double drop_after_m = 3.0;           ///< A lamp is dropped after so much driving without a detection
+  int most = 64;                       ///< Greatest number of lamps on probation
 
   friend bool operator==(const LampProbationSettings&, const LampProbationSettings&) = default;
 };
 
-/// Whether a lamp is there.
+/// Evidence for the existence of a lamp.
 struct LampEvidenceSettings {
-  double judge_every_m = 0.1;     ///< driven between images that count as misses of what they do not show
-  double forget_log_odds = -4.0;  ///< a lamp is taken out below these odds of being there
-  double most_log_odds = 12.0;    ///< no lamp is surer than this
+  double judge_every_m = 0.1;     ///< Driven distance between images whose misses count
+  double forget_log_odds = -4.0;  ///< A lamp is deleted below these log odds of its existence
+  double most_log_odds = 12.0;    ///< Upper bound on the log odds
 
   friend bool operator==(const LampEvidenceSettings&, const LampEvidenceSettings&) = default;
 };
 
-/// One lamp mapped twice.
+/// Merging of two landmarks that are the same lamp.
 struct LampMergingSettings {
-  double chi2 = 11.3;    ///< of 3 degrees of freedom: their distance by its covariance; 0: never merged
-  int after_misses = 5;  ///< in a row of one while the other was seen
+  double chi2 = 11.3;    ///< Gate on the squared distance of the two landmarks, 3 degrees of freedom; 0: never.
+  int after_misses = 5;  ///< Consecutive misses of one lamp while the other was detected
 
   friend bool operator==(const LampMergingSettings&, const LampMergingSettings&) = default;
 };
 
 struct LampEkfSettings {
-  // What is seen
-  LampsInView view;  ///< where the rig is silent, up to 1.3 rad from the zenith
+  // Detection
+  LampsInView view;  ///< Without a limit in the rig, lamps are in view up to 1.3 rad from the zenith
   LampGateSettings gates;
-  int max_directions = 128;  ///< in an image with more only confirmed lamps are looked for, and none is begun
+  /// In an image with more directions, only confirmed lamps are matched and no lamp is initialised
+  int max_directions = 128;
 
-  // How lamps come and go
+  // Life cycle of lamps
   LampHeightSettings height;
   LampProbationSettings probation;
   LampEvidenceSettings evidence;
   LampMergingSettings merging;
-  double promote_nonlinearity = 0.03;  ///< a share of uncertain height below which a lamp becomes a point
-  int max_landmarks = 256;             ///< the map grows no further
+  double promote_nonlinearity = 0.03;  ///< Relative uncertainty of the height below which a lamp becomes a 3D point
+  int max_landmarks = 256;             ///< Greatest number of landmarks in the map
 
-  // The filter
-  bool invariant_update = true;  ///< heading corrections turn the whole map (right-invariant EKF)
+  // Filter
+  bool invariant_update = true;  ///< Whether heading corrections rotate the whole map (right-invariant EKF)
   CentreSettings centre;
 
-  // When it was wrong
-  int recover_after_images = 5;  ///< that contradict the map, in a row, the pose is taken to be vaguer; 0: never
-  HealthSettings health;
+  // Recovery from errors
+  /// After so many images that contradict the map, the pose's covariance is inflated; 0: never.
+  int recover_after_images = 5;
 
   friend bool operator==(const LampEkfSettings&, const LampEkfSettings&) = default;
 };

@@ -8,8 +8,8 @@
 namespace azimuth {
 namespace {
 
-constexpr double kNear = 1.0;  // in metres for each metre of height
-// How well a new lamp's height is known where others' are: a share of it, and more where they differ.
+constexpr double kNear = 1.0;  // In metres per metre of height
+// Relative uncertainty of a new lamp's height if other lamps' heights are known; it is greater if these differ.
 constexpr double kUsual = 0.15, kWiderThanSpread = 1.5;
 
 std::size_t room_below(int most, std::size_t used) {
@@ -19,7 +19,7 @@ std::size_t room_below(int most, std::size_t used) {
 
 }  // namespace
 
-/// Heights from h - s to h + s are inverse heights of the mean h / (h^2 - s^2), give or take s / (h^2 - s^2).
+/// Heights from h - s to h + s correspond to inverse heights of mean h / (h^2 - s^2) and half-width s / (h^2 - s^2).
 LampMap::LampMap(const LampEkfSettings& settings, const CeilingView& view, const std::optional<UsualHeight>& usual)
     : settings_(settings),
       view_(view),
@@ -50,7 +50,8 @@ void LampMap::restore(const MapSnapshot& map, std::span<const Index> blocks) {
   book_.continue_from(map.next_id);
 }
 
-/// docs/mathematics.md, VI.14. Only after some driving: from one place a reflection is as steady as a lamp.
+/// docs/mathematics.md, VI.14. Counts only after some driving, since a reflection seen from one place is as steady as a
+/// lamp.
 void LampMap::weigh_evidence(LampEkf& ekf, const CeilingImage& image, const LampMatches& matches) {
   if (image.lights == 0 || path_m_ - last_weighed_m_ < settings_.evidence.judge_every_m) return;
   last_weighed_m_ = path_m_;
@@ -61,7 +62,7 @@ void LampMap::weigh_evidence(LampEkf& ekf, const CeilingImage& image, const Lamp
     Lamp& lamp = book_[predicted->lamp];
     lamp.last_weighed = image_;
     if (lamp.evidence.proven()) continue;
-    // What is near may be a reflection, and the lamp missed.
+    // The direction in the gate may be a reflection while the lamp is missed.
     const double of_lamp =
         view_.detection(*predicted) * std::exp(ekf.log_density({lamp.at, image.seen[i]}) - log_reflection);
     lamp.evidence.seen(std::log(of_lamp + view_.chance_of_miss(*predicted)), 0.0);
@@ -80,7 +81,7 @@ void LampMap::was_seen(std::size_t at) {
   lamp.log_odds = std::min(lamp.log_odds + log_seen_, settings_.evidence.most_log_odds);
 }
 
-/// Of lamps far from each other nobody will ever ask.
+/// Distant lamps are not recorded, since merging never considers them.
 void LampMap::note_apart(const LampMatches& matches) {
   for (std::size_t r = 0; r < matches.near.size(); ++r)
     for (std::size_t c = 0; c < r; ++c) {
@@ -97,7 +98,7 @@ bool LampMap::are_apart(std::int64_t a, std::int64_t b) const {
                              [&](const Apart& pair) { return pair.a == std::min(a, b) && pair.b == std::max(a, b); });
 }
 
-/// Only after some driving: what is hidden from here stays hidden while the robot stands.
+/// Counts only after some driving, since an occluded lamp stays occluded while the robot stands.
 void LampMap::count_misses(const LampMatches& matches) {
   if (path_m_ - last_judged_m_ < settings_.evidence.judge_every_m) return;
   last_judged_m_ = path_m_;
@@ -114,8 +115,8 @@ void LampMap::tidy(LampEkf& ekf) {
   forget_doubtful(ekf);
 }
 
-/// A lamp that is missed again and again while another one is seen at the same place is that one. They are never merged
-/// once they were seen in one image.
+/// Merges a lamp that is missed repeatedly with another lamp detected at the same place. Two lamps that one image
+/// showed as two are never merged.
 void LampMap::merge_twins(LampEkf& ekf) {
   if (settings_.merging.chi2 <= 0.0) return;
   for (std::size_t i = book_.size(); i-- > 0;) {
@@ -131,7 +132,7 @@ void LampMap::merge_twins(LampEkf& ekf) {
   }
 }
 
-/// The only lamp seen now that may be the missed one; nothing when there are two.
+/// The only lamp detected now that may be the missed one; nullopt if there are several.
 std::optional<std::size_t> LampMap::twin_of(const Lamp& missed, const LampEkf& ekf) const {
   std::optional<std::size_t> twin;
   if (missed.at.kind != BlockKind::point3) return twin;
@@ -156,7 +157,8 @@ void LampMap::forget_doubtful(LampEkf& ekf) {
   }
 }
 
-/// Where there is no room for all of them, every so many-th: bearings come by azimuth, so these are from all round.
+/// If there is no room for all new lamps, initialises an evenly spaced selection. Bearings are ordered by azimuth, so
+/// these lamps lie all round.
 void LampMap::add(LampEkf& ekf, const CeilingImage& image, const LampMatches& matches) {
   const std::size_t on_probation = book_.size() - confirmed();
   const std::size_t room =
@@ -196,7 +198,8 @@ bool LampMap::promote_converged(LampEkf& ekf) {
   return created_ != before;
 }
 
-/// A lamp beyond doubt, and seen often enough, from places far enough apart, to be at a height.
+/// Whether the lamp passes probation: it is proven, and detected often enough and from places far enough apart for its
+/// height to be known.
 bool LampMap::is_to_be_confirmed(const Lamp& lamp, double nonlinearity) const {
   const bool often = lamp.sightings >= static_cast<std::uint64_t>(settings_.probation.confirm_after_sightings);
   const bool apart = lamp.last_seen_m - lamp.first_seen_m >= settings_.probation.confirm_after_m;
@@ -215,7 +218,7 @@ std::size_t LampMap::confirmed() const {
   return static_cast<std::size_t>(std::ranges::count_if(lamps(), &Lamp::confirmed));
 }
 
-/// The mean of their inverse heights, which is what of a height is nearly Gaussian.
+/// The harmonic mean, because the inverse heights are nearly Gaussian.
 std::optional<UsualHeight> LampMap::usual_height(const LampEkf& ekf) const {
   double sum_per_m = 0.0, sum_m = 0.0, sum_m2 = 0.0;
   for (const Lamp& lamp : lamps()) {

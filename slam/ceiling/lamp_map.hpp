@@ -8,8 +8,8 @@
 #include "slam/ceiling/ceiling_view.hpp"
 #include "slam/ceiling/lamp_ekf_settings.hpp"
 #include "slam/ekf/lamp_ekf.hpp"
-#include "slam/estimator/begins_twice.hpp"
 #include "slam/estimator/landmark_book.hpp"
+#include "slam/estimator/restartable_estimator.hpp"
 #include "slam/fastslam/lamp_evidence.hpp"
 #include "slam/sample/map_snapshot.hpp"
 
@@ -17,69 +17,69 @@ namespace azimuth {
 
 struct LampMatches;
 
-/// What the lamp EKF knows of a lamp beside its state.
+/// What the lamp EKF knows of a lamp in addition to its state.
 struct Lamp {
   std::int64_t id = 0;
   Identity identity = kUnknownIdentity;
   LampBlock at;
-  std::uint64_t sightings = 0;  ///< that were used
-  double log_odds = 0.0;        ///< of being there, by sightings and misses
-  LampEvidence evidence;        ///< of being a lamp, and not what reflections look like by chance
-  int missed_in_row = 0;        ///< since the last sighting, where it should have been seen
-  double first_seen_m = 0.0;    ///< path driven by then
+  std::uint64_t sightings = 0;  ///< Number of detections used
+  double log_odds = 0.0;        ///< Log odds of the lamp's existence, from detections and misses
+  LampEvidence evidence;        ///< Evidence for a lamp against chance reflections
+  int missed_in_row = 0;        ///< Consecutive misses in the field of view since the last detection
+  double first_seen_m = 0.0;    ///< Path driven at the first detection
   double last_seen_m = 0.0;
-  std::uint64_t last_image = 0;    ///< in which it was seen
-  std::uint64_t last_weighed = 0;  ///< image of its last evidence by a sighting
-  bool confirmed = false;          ///< no longer on probation
+  std::uint64_t last_image = 0;    ///< Number of the last image that detected the lamp
+  std::uint64_t last_weighed = 0;  ///< Number of the last image whose detection was weighed as evidence
+  bool confirmed = false;          ///< Whether the lamp has passed probation
 };
 
-/// The lamp EKF's lamps: how they come into its state, prove to be lamps, are told from each other, and go.
+/// The lamps of the lamp EKF: their initialisation, confirmation, merging and deletion.
 ///
 /// Thread contract: thread-bound.
 class LampMap {
  public:
-  /// Without `usual` new lamps are linearised about the settings' guess.
+  /// If `usual` is empty, new lamps are linearised about the height guess of the settings.
   LampMap(const LampEkfSettings& settings, const CeilingView& view, const std::optional<UsualHeight>& usual = {});
 
   std::span<const Lamp> lamps() const { return book_.entries(); }
   const Lamp& operator[](std::size_t at) const { return book_[at]; }
   bool empty() const { return book_.empty(); }
   std::size_t confirmed() const;
-  /// Above the camera, of the confirmed ones; nothing while there are none.
+  /// Heights above the camera of the confirmed lamps; nullopt if there are none.
   std::optional<UsualHeight> usual_height(const LampEkf& ekf) const;
   bool any_proven() const;
   std::int64_t next_id() const { return book_.next_id(); }
   void continue_from(std::int64_t next_id) { book_.continue_from(next_id); }
-  std::uint64_t created() const { return created_; }  ///< confirmed, rather: nobody hears of the others
+  std::uint64_t created() const { return created_; }  ///< Confirmed lamps; those on probation are not published
   std::uint64_t deleted() const { return deleted_; }
 
-  /// Takes over a saved map's lamps, which stand in the filter's `blocks`.
+  /// Restores the lamps of a saved map, whose states are in `blocks` of the filter.
   void restore(const MapSnapshot& map, std::span<const Index> blocks);
 
-  /// The next image, seen after `path_m` of driving.
+  /// Begins the next image, taken after `path_m` of driving.
   void begin_image(double path_m) {
     ++image_;
     path_m_ = path_m;
   }
-  /// Of what may be no lamp, by what was predicted before anything is learnt from the image.
+  /// Weighs the evidence for each unproven lamp by its predicted direction, before the image updates the filter.
   void weigh_evidence(LampEkf& ekf, const CeilingImage& image, const LampMatches& matches);
-  /// The image shows the lamp.
+  /// Records that the image detected the lamp at index `at`.
   void was_seen(std::size_t at);
-  /// Two lamps that the image shows near each other are two.
+  /// Records pairs of nearby lamps that one image shows as two.
   void note_apart(const LampMatches& matches);
-  /// What the image should show and does not.
+  /// Counts the lamps that the image should show and does not.
   void count_misses(const LampMatches& matches);
-  /// What was missed until now says nothing: the pose was wrong.
+  /// Ignores misses up to now, because the pose was wrong.
   void hold_judgement() { last_judged_m_ = path_m_; }
-  /// Twins become one; clutter, what was switched off, and what is not above the camera after all, go.
+  /// Merges duplicates and deletes lamps that are clutter, switched off or not above the camera.
   void tidy(LampEkf& ekf);
-  /// Begins lamps of what is of no other, as far as there is room.
+  /// Initialises lamps from directions that match no lamp, as far as there is room.
   void add(LampEkf& ekf, const CeilingImage& image, const LampMatches& matches);
-  /// Those whose height is known become points, and those beyond doubt are confirmed. True: some were.
+  /// Converts lamps with a known height to points, and confirms proven lamps. Returns whether any lamp was confirmed.
   bool promote_converged(LampEkf& ekf);
 
  private:
-  /// Two lamps that were seen in one image, near each other.
+  /// Two nearby lamps that one image showed as two.
   struct Apart {
     std::int64_t a, b;
   };
@@ -93,7 +93,7 @@ class LampMap {
 
   LampEkfSettings settings_;
   CeilingView view_;
-  double log_seen_;  // what a sighting is worth
+  double log_seen_;  // Log-likelihood ratio of one detection
   double inverse_height_per_m_, sigma_inverse_height_per_m_;
   LandmarkBook<Lamp> book_;
   std::vector<Apart> apart_;

@@ -8,7 +8,7 @@
 namespace azimuth {
 namespace {
 
-/// nu^T S^-1 nu; without end where there is no comparing.
+/// nu^T S^-1 nu; infinite if the direction cannot be compared with the lamp.
 double squared_distance(const MeasuredDirection& measured, const PredictedDirection& predicted) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const auto residual = measured.seen.against(predicted.offset.m);
@@ -62,8 +62,8 @@ void LampMatcher::predict(std::span<const Lamp> lamps, const LampEkf& ekf) {
       matches_.predicted.push_back({i, *offset, ekf.covariance(*offset, *offset)});
 }
 
-/// Of such an image only what may be of a confirmed lamp is used, the nearest first, and that there are so many makes
-/// chance encounters likelier. The directions used stay in their order.
+/// Shortens a crowded image to the directions nearest to confirmed lamps, in their original order. The density of new
+/// directions is raised, since chance matches are more likely in a crowded image.
 void LampMatcher::thin(CeilingImage& image, std::span<const Lamp> lamps) {
   const auto room = as_size(settings_.max_directions);
   image.lights = image.measured.size();
@@ -80,7 +80,7 @@ void LampMatcher::thin(CeilingImage& image, std::span<const Lamp> lamps) {
   matches_.left_out = image.lights - ranked_.size();
 }
 
-/// Those within the gate of a confirmed lamp, the nearest first.
+/// Ranks the directions in the gate of a confirmed lamp, the nearest first.
 void LampMatcher::rank_by_confirmed(const CeilingImage& image, std::span<const Lamp> lamps) {
   ranked_.clear();
   for (std::size_t i = 0; i < image.measured.size(); ++i) {
@@ -95,7 +95,8 @@ void LampMatcher::rank_by_confirmed(const CeilingImage& image, std::span<const L
   });
 }
 
-/// Among so many directions a lamp on probation would find one that suits it wherever it is.
+/// Selects the lamps in the gate of some direction. In a crowded image only confirmed lamps are selected: a lamp on
+/// probation would find some direction that fits by chance.
 void LampMatcher::find_near(const CeilingImage& image, std::span<const Lamp> lamps) {
   matches_.near.clear();
   near_offsets_.clear();

@@ -11,34 +11,34 @@
 
 namespace azimuth {
 
-/// What the directions of an image are of.
+/// The data association of an image's directions with lamps.
 struct LampMatches {
-  std::vector<PredictedDirection> predicted;  ///< every lamp above the camera
-  std::vector<std::size_t> near;              ///< of those, the ones that some direction may be of
-  std::vector<DirectionMatch> of;             ///< each direction, by its place in `near`
-  std::uint64_t left_out = 0;                 ///< directions of a crowded image
+  std::vector<PredictedDirection> predicted;  ///< Every lamp above the camera
+  std::vector<std::size_t> near;              ///< Indices in `predicted` of the lamps in the gate of some direction
+  std::vector<DirectionMatch> of;             ///< For each direction, its match, as an index into `near`
+  std::uint64_t left_out = 0;                 ///< Number of directions of a crowded image that were left out
 
-  /// The lamp of a direction; null: of none.
+  /// The lamp matched with a direction, or null.
   const PredictedDirection* paired(std::size_t direction) const {
     const DirectionMatch& match = of[direction];
     return match.fate == DirectionFate::paired ? &predicted[near[as_size(match.landmark)]] : nullptr;
   }
 };
 
-/// Which direction is of which lamp.
+/// Matches directions with lamps.
 ///
-/// What is returned stands until the next call. Thread contract: thread-bound; does not allocate once its workspace has
-/// grown to the largest image and map.
+/// The result of match() is valid until its next call. Thread contract: thread-bound; does not allocate once the
+/// workspace has grown to the largest image and map.
 class LampMatcher {
  public:
   LampMatcher(const LampEkfSettings& settings, const CeilingView& view);
 
-  /// An image with more directions than there is room for, as of a wet floor or the sun through leaves, becomes a
-  /// shorter one.
+  /// Matches `image`. An image with more directions than LampEkfSettings::max_directions (for example of a wet floor,
+  /// or of the sun through leaves) is shortened.
   const LampMatches& match(CeilingImage& image, std::span<const Lamp> lamps, const LampEkf& ekf);
 
  private:
-  /// A direction of a crowded image, by the confirmed lamp it is nearest to.
+  /// A direction of a crowded image, with its distance from the nearest confirmed lamp.
   struct Ranked {
     double distance2;
     std::size_t direction;
@@ -55,7 +55,7 @@ class LampMatcher {
   DirectionMatching matching_;
   LampMatches matches_;
 
-  // Of the running image.
+  // Workspace of the current image.
   std::vector<Ranked> ranked_;
   std::vector<Eigen::Vector2d> near_offsets_;
   std::vector<Identity> near_identities_;

@@ -5,7 +5,7 @@
 
 namespace azimuth {
 
-/// Allocates from the start of a cache line.
+/// Allocator whose memory starts at a cache line.
 template <class T>
 struct CacheLineAllocator {
   using value_type = T;
@@ -20,7 +20,7 @@ struct CacheLineAllocator {
   friend bool operator==(const CacheLineAllocator&, const CacheLineAllocator&) { return true; }
 };
 
-/// Numbers for vector instructions: those wide as a cache line must not lie across two.
+/// Storage for vector instructions: an operand as wide as a cache line must not straddle two lines.
 using AlignedVector = std::vector<double, CacheLineAllocator<double>>;
 
 }  // namespace azimuth

@@ -32,7 +32,7 @@ void BatchUpdate::fit(const BlockTriangle& P) {
 }
 
 void BatchUpdate::reserve(Index rows) {
-  // The padding too: it is computed with, although nobody asks for it.
+  // The padding must be zeroed too: it enters the computation, although its results are not used.
   W_.assign(as_size(stride_ * (rows + kSpareColumns)), 0.0);
   S_.resize(rows, rows);
   whitened_innovation_.resize(rows);
@@ -49,7 +49,7 @@ bool BatchUpdate::compute(const BlockTriangle& P, std::span<const ObservationRow
   return whiten(rows);
 }
 
-/// W = P H^T and S = H W + R (lower triangle).
+/// Computes W = P H^T and S = H W + R (lower triangle).
 void BatchUpdate::compute_gain(const BlockTriangle& P, std::span<const ObservationRow> rows) {
   for (std::size_t k = 0; k < rows.size(); ++k) {
     auto column = W(as_index(k));
@@ -68,19 +68,19 @@ void BatchUpdate::compute_gain(const BlockTriangle& P, std::span<const Observati
     }
 }
 
-/// out += P(:, part) * coefficients for each part in turn, from the part's first row down; all that lie above a row in
+/// out += P(:, part) * coefficients for each part, from the part's first row down. All parts above a row are added in
 /// one pass. Parts may overlap.
 void BatchUpdate::add_columns_below(const BlockTriangle& P, const ObservationRow& row, double* out) {
   const std::span<const ObservationRow::Part> parts(row.parts.data(), as_size(row.count));
   for (Index first = 0, last = 0; first < extent_; first = last) {
-    last = extent_;  // of the rows that have the same parts above them
+    last = extent_;  // end of the rows that have the same parts above them
     for (const auto& part : parts)
       if (first < part.end()) last = std::min(last, first < part.offset ? part.offset : part.end());
     scaled_.clear();
     for (const auto& part : parts)
       if (part.end() <= first) {
         scale_columns(P, part, first);
-      } else if (part.offset <= first) {  // the rows are its own, where the triangle ends
+      } else if (part.offset <= first) {  // rows of the part itself, at the edge of the triangle
         add_columns(scaled_, last - first, out + first);
         scaled_.clear();
         for (Index i = first; i < last; ++i)
@@ -90,16 +90,17 @@ void BatchUpdate::add_columns_below(const BlockTriangle& P, const ObservationRow
   }
 }
 
-/// Appends the part's columns of the sum at hand, which begins at `row`.
+/// Appends the part's columns to the present sum, which starts at `row`.
 void BatchUpdate::scale_columns(const BlockTriangle& P, const ObservationRow::Part& part, Index row) {
-  // A ray's four add to the sum one by one: another order would round differently, and logs recorded so far replay.
+  // The four columns of a ray are added one by one: another order rounds differently, and recorded logs would not
+  // replay to the same bits.
   const Index together = part.size == 4 ? 1 : part.size;
   for (Index s = 0; s < part.size; s += together)
     scaled_.push_back({P.column(part.offset + s) + row, stride_, &part.coefficients[as_size(s)], together});
 }
 
-/// The rest of P H^T, above the parts. There a part's entries are adjacent rows of each column of the triangle; all
-/// parts are served column by column, since columns lie pages apart.
+/// Adds the rest of P H^T: the rows above the parts. In these rows the entries of a part are adjacent rows of each
+/// column of the triangle. All parts are processed column by column, since columns are pages apart in memory.
 void BatchUpdate::add_rows_left(const BlockTriangle& P, std::span<const ObservationRow> rows) {
   sort_parts(rows);
   auto first = parts_.begin();
@@ -125,7 +126,7 @@ void BatchUpdate::sort_parts(std::span<const ObservationRow> rows) {
   });
 }
 
-/// S = L L^T, W <- W L^-T, innovation <- L^-1 innovation.
+/// Factorises S = L L^T and whitens: W <- W L^-T, innovation <- L^-1 innovation.
 bool BatchUpdate::whiten(std::span<const ObservationRow> rows) {
   const Index count = as_index(rows.size());
   for (Index r = 0; r < count; ++r) {

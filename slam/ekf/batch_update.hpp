@@ -10,33 +10,35 @@
 
 namespace azimuth {
 
-/// The gain of one batch update (SPEC I.7), whitened: with S = H P H^T + R = L L^T it holds W = P H^T L^-T and the
-/// innovations L^-1 nu, so that K nu = W L^-1 nu and K S K^T = W W^T. The covariance is left to the caller, with room
-/// for a pair of columns more in the product that it is to lose (rank_update.hpp).
+/// The gain of one batch update (mathematics I.7) in whitened form: with S = H P H^T + R = L L^T, W = P H^T L^-T and
+/// the whitened innovations are L^-1 nu, so that K nu = W L^-1 nu and K S K^T = W W^T. The caller updates the
+/// covariance, and may add one more pair of columns to the product that is subtracted from it (rank_update.hpp).
 ///
 /// Thread contract: thread-bound. Nothing allocates unless the state or the batch is larger than any before.
 class BatchUpdate {
  public:
-  static constexpr Index kSpareColumns = 2;  ///< one pair
+  static constexpr Index kSpareColumns = 2;  ///< Room for one more pair of columns
 
-  /// Makes room for states of this capacity.
+  /// Makes room for states of the capacity of P.
   void fit(const BlockTriangle& P);
 
-  /// False when S is not positive definite.
+  /// Computes W, L and the whitened innovations. Returns false when S is not positive definite.
   bool compute(const BlockTriangle& P, std::span<const ObservationRow> rows);
 
   using Column = Eigen::Map<Eigen::VectorXd>;
   Column W(Index column) { return {W_.data() + column * stride_, extent_}; }
-  /// Of L, the lower triangle.
+  /// Element of the lower triangular L.
   double L(Index row, Index column) const { return S_(row, column); }
   double whitened_innovation(Index row) const { return whitened_innovation_(row); }
   /// x += K nu.
   void add_correction(Index rows, double* x);
-  /// column -= W W(entry, :)^T, of the first `columns` of W: what an entry's column of the covariance loses.
+  /// column -= W W(entry, :)^T, using the first `columns` of W: the update's change of an entry's column of the
+  /// covariance.
   void subtract_products_with(Index entry, Index columns, double* column);
   Index most_rows() const { return S_.rows(); }
 
-  /// P <- P - w w^T for the first `squares` columns w of W, and P - (u v^T + v u^T) for the `pairs` after them.
+  /// P <- P - w w^T for the first `squares` columns w of W, and P <- P - (u v^T + v u^T) for the `pairs` of columns
+  /// after them.
   void subtract_from(BlockTriangle& P, Index squares, Index pairs) {
     subtract_symmetric_product(P.lower(), {W_.data(), stride_, squares, pairs});
   }
@@ -44,7 +46,7 @@ class BatchUpdate {
  private:
   struct PlacedPart {
     ObservationRow::Part part;
-    Index row = 0;  // of the measurement
+    Index row = 0;  // row of the measurement
   };
   void reserve(Index rows);
   void compute_gain(const BlockTriangle& P, std::span<const ObservationRow> rows);
@@ -52,18 +54,18 @@ class BatchUpdate {
   void scale_columns(const BlockTriangle& P, const ObservationRow::Part& part, Index row);
   void add_rows_left(const BlockTriangle& P, std::span<const ObservationRow> rows);
   void sort_parts(std::span<const ObservationRow> rows);
-  /// out += W f with a factor for each column, one after the other.
+  /// out += W f, where `factor` returns the element of f for a column.
   template <class Factor>
   void add_products(Index columns, Factor factor, double* out);
   bool whiten(std::span<const ObservationRow> rows);
 
   Index stride_ = 0, extent_ = 0;
-  std::vector<PlacedPart> parts_;  // of all rows, by offset
-  AlignedVector W_;                // columns `stride_` apart
+  std::vector<PlacedPart> parts_;  // parts of all rows, sorted by offset
+  AlignedVector W_;                // columns are `stride_` apart
   Eigen::MatrixXd S_;              // innovation covariance, then its Cholesky factor L
   Eigen::VectorXd whitened_innovation_;
   Eigen::VectorXd factors_;
-  std::vector<ScaledColumns> scaled_;  // of the sum at hand
+  std::vector<ScaledColumns> scaled_;  // operands of the present sum
 };
 
 }  // namespace azimuth

@@ -1,4 +1,4 @@
-// BearingEkf: what its rows leave out.
+// BearingEkf: second-order terms that its rows leave out.
 
 #include <cmath>
 
@@ -9,7 +9,7 @@
 namespace azimuth {
 namespace {
 
-/// The rows of across and along. Only position and landmark bend an azimuth: it is linear in the heading.
+/// Second moment of across times along. Only position and landmark contribute: the azimuth is linear in the heading.
 template <int LandmarkSize>
 double curvature_rad2(const JointState& state, const MappedSighting& sighting,
                       const PredictedBearing<LandmarkSize>& predicted, const Stretch<LandmarkSize>& stretch) {
@@ -22,7 +22,7 @@ double curvature_rad2(const JointState& state, const MappedSighting& sighting,
   return variance_of_product(state, across, along);
 }
 
-/// d(rho) d(anchor - p), the part of it across m.
+/// Second moment of d(rho) d(anchor - p), the part across m.
 double curvature_of_ray_rad2(const JointState& state, const MappedSighting& sighting, const InverseDepth& ray) {
   const Eigen::Vector2d m = ray.inverse_distance_per_m * (ray.anchor - state.position(sighting.pose)) + ray.direction();
   const Eigen::Vector2d across = Eigen::Vector2d(-m.y(), m.x()) / m.squaredNorm(), against = -across;

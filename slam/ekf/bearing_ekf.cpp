@@ -13,7 +13,7 @@
 namespace azimuth {
 namespace {
 
-/// Of the points seen: x and y of each, in their order.
+/// The x and y entries of the points, in the order of the bearings.
 std::vector<Index> position_entries(std::span<const MappedSighting> sightings) {
   std::vector<Index> entries;
   for (const MappedSighting& sighting : sightings)
@@ -21,12 +21,12 @@ std::vector<Index> position_entries(std::span<const MappedSighting> sightings) {
   return entries;
 }
 
-/// The entries of the state a new block is made from.
+/// The entries of the state from which a new block is made.
 class Sources {
  public:
   static constexpr Index kMost = 11;  // two poses, yaw, centre, tilt
 
-  /// The first of `size` entries from `block` on is this column of the Jacobian.
+  /// Adds the `size` entries from `block` on. Returns the Jacobian's column of the first of them.
   Index add(Index block, Index size) {
     const Index column = count_;
     for (Index i = 0; i < size; ++i) entries_[as_size(count_++)] = block + i;

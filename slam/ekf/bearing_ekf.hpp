@@ -19,27 +19,28 @@ namespace azimuth {
 
 struct BearingEkfSettings {
   JointState::Retraction retraction = JointState::Retraction::invariant;
-  int max_iterations = 1;                   ///< of the update; 1: the plain EKF
-  double iterate_below_heading_rad = 0.05;  ///< the heading's standard deviation above which it is not iterated
-  double min_distance_m = 0.05;             ///< nearer landmarks are not used (SPEC I.6)
-  double yaw_offset_rad = 0.0;              ///< camera's yaw on the robot: robot azimuth = camera azimuth + yaw
-  bool estimate_yaw = false;                ///< carry the yaw as a state
-  double sigma_yaw_rad = 0.0;               ///< its initial standard deviation
-  /// Initial standard deviation of the image's centre along u and along v, as a state; 0: it is exact.
+  int max_iterations = 1;                   ///< Iterations of the update; 1: the plain EKF
+  double iterate_below_heading_rad = 0.05;  ///< No iteration while the heading's standard deviation is larger
+  double min_distance_m = 0.05;             ///< Bearings of nearer landmarks are not used (mathematics I.6)
+  double yaw_offset_rad = 0.0;              ///< Camera's yaw on the robot: robot azimuth = camera azimuth + yaw
+  bool estimate_yaw = false;                ///< Estimate the yaw as a state
+  double sigma_yaw_rad = 0.0;               ///< Initial standard deviation of the yaw
+  /// Initial standard deviation of the image's centre along u and along v, as a state; 0: exact.
   double sigma_centre_px = 0.0;
-  /// Of roll and pitch likewise; takes a camera whose profile is known.
+  /// Initial standard deviation of roll and of pitch, as states; 0: exact. Requires `profile`.
   double sigma_tilt_rad = 0.0;
   std::optional<RadialProfile> profile = {};
-  /// Their initial mean, as in CameraErrors; the centre's is (towards azimuth 0, towards azimuth pi/2).
+  /// Initial mean of the camera errors, laid out as CameraErrors::mean; the centre is given as (towards azimuth 0,
+  /// towards azimuth pi/2).
   Eigen::Vector4d camera_errors = Eigen::Vector4d::Zero();
-  /// Bearings are charged for what a linear update leaves out (curvature.hpp).
+  /// Charge bearings with the terms that a linear update leaves out (curvature.hpp).
   bool charge_curvature = false;
-  /// Standard deviations of what the rig leaves unknown (considered_rig.hpp); 0: exact.
+  /// Standard deviations of the rig's considered constants (considered_rig.hpp); 0: exact.
   Considered sigma_considered = Considered::Zero();
 };
 
-/// The bearing-only EKF of SPEC part I without bookkeeping: which landmark a bearing belongs to, and when one is
-/// initialised, is decided outside.
+/// The bearing-only EKF of mathematics part I without bookkeeping: the caller decides which landmark a bearing belongs
+/// to and when a landmark is initialised.
 ///
 /// Thread contract: thread-bound. predict() and update() do not allocate once the state has stopped growing.
 class BearingEkf {
@@ -50,32 +51,34 @@ class BearingEkf {
 
   const JointState& state() const { return state_; }
   double yaw_offset_rad() const { return offsets_.yaw_block ? state_.mean(*offsets_.yaw_block) : offsets_.yaw_rad; }
-  /// Of the image's centre (towards azimuth 0, towards azimuth pi/2) and of the tilt; nothing while both are exact.
+  /// Errors of the image's centre (towards azimuth 0, towards azimuth pi/2) and of the tilt. Nothing while both are
+  /// exact.
   std::optional<CameraErrors> camera_errors() const;
 
-  /// SPEC I.3, with the noise of a motion carried over many segments.
+  /// Moves the robot (mathematics I.3). The motion may consist of many segments and carries their noise.
   void predict(const Motion& motion);
 
-  /// Takes over what another filter knew of pose, camera and points; to be called before anything else. The camera is
-  /// left as it is when that filter estimated something else of it. Returns the points' blocks.
+  /// Restores pose, camera and points from a saved map; to be called before anything else. The camera is not restored
+  /// if the saved filter estimated other camera states. Returns the points' blocks.
   std::vector<Index> restore(const MapSnapshot& map) { return azimuth::restore(map, camera_entries(), state_); }
-  /// Forgets what was known of the robot's pose, for another with a covariance that has nothing to do with the map.
+  /// Replaces the robot's pose by one with an independent covariance, uncorrelated with the map.
   void place_robot(const Pose2& T_map_body, const Eigen::Matrix3d& covariance);
   /// From now on only the robot and the camera are corrected; see JointState::hold_from().
   void hold_map() { state_.hold_from(kCameraEntry + camera_entries()); }
-  /// What of the camera is estimated: that many entries from kCameraEntry on.
+  /// Number of estimated camera entries, from kCameraEntry on.
   Index camera_entries() const { return (offsets_.yaw_block ? 1 : 0) + offsets_.errors_size(); }
 
-  /// Goes by such errors of the rig from now on, whatever its settings say: JointState::believe().
+  /// Takes these errors of the rig into account from now on; see JointState::believe().
   void believe(const Considered& errors) { state_.believe(errors, retraction()); }
 
-  /// Adds noise to the robot's pose where it stands.
+  /// Adds noise to the robot's pose without moving it.
   void inflate_robot(const Eigen::Matrix3d& noise) { state_.inflate_robot(noise); }
 
-  /// Innovation and Jacobian at the present mean (SPEC I.6); nothing when the landmark is too near to be used.
+  /// Innovation and Jacobian at the present mean (mathematics I.6). Nothing when the landmark is too near to be used.
   std::optional<ObservationRow> linearise(const MappedSighting& sighting) const;
 
-  /// What its row leaves out, as a variance [rad^2] to be added to its noise; 0 unless the settings charge it.
+  /// Variance [rad^2] of the terms that the linear row leaves out, to be added to its noise; 0 unless the settings
+  /// charge it.
   double curvature_rad2(const MappedSighting& sighting) const;
 
   /// H_a P H_b^T: the covariance of two predicted azimuths.
@@ -83,60 +86,62 @@ class BearingEkf {
     return state_.covariance(a, b);
   }
 
-  /// One batch update (SPEC I.7) with each sighting's variance and its curvature, iterated when the settings say so:
-  /// the linearisation is moved to the posterior mean until that stands still. Sightings that cannot be linearised are
-  /// left out. False: nothing was changed.
+  /// One batch update (mathematics I.7), each bearing's noise increased by its curvature. It is iterated if the
+  /// settings say so: the linearisation point moves to the posterior mean until convergence. Bearings that cannot be
+  /// linearised are left out. Returns false if nothing was changed.
   bool update(std::span<const MappedSighting> sightings);
 
-  /// Where the robot must be to see mapped points so, whatever the filter believes; see resect(). All
-  /// bearings count as the least certain one; the camera's offsets, where estimated, are taken as known.
+  /// The pose from which mapped points are seen under these bearings, whatever the filter believes; see resect(). All
+  /// bearings get the largest of the bearings' standard deviations. The camera's offsets, where estimated, count as
+  /// exact.
   std::optional<Resection> resect(std::span<const MappedSighting> sightings) const;
 
-  /// Believes it: the pose becomes a function of the points and bearings it was found from, correlated with the map as
-  /// it should be. The bearings are used up by that.
+  /// Sets the pose to the one found by resect(): a function of these points and bearings, correlated with the map
+  /// accordingly. These bearings must not be used again.
   void relocate(std::span<const MappedSighting> sightings, const Resection& found);
 
-  /// Stochastic cloning of the robot's pose (SPEC I.4).
+  /// Stochastic cloning of the robot's pose (mathematics I.4).
   Index clone_robot() { return state_.clone_robot(); }
 
-  /// The two poses' joint covariance, for the quality test.
+  /// The joint covariance of two poses, for the quality test.
   Matrix6d joint_pose_covariance(Index pose_i, Index pose_j) const;
 
-  /// A sighting from the pose in `block`, as triangulation wants it (the camera's offsets applied).
+  /// The bearing, taken from the pose in `block`, in the form that triangulation uses (camera offsets applied).
   Sighting sighting_from(Index block, double camera_azimuth_rad, double radius_px = kNoRadius) const;
 
   /// d(azimuth) / d(CameraErrors) of a bearing.
   Eigen::RowVector4d by_camera(double camera_azimuth_rad, double radius_px) const;
 
-  /// Adds the landmark where two sightings meet (SPEC I.8). `by_camera` has a row for each of them, see
-  /// by_camera().
+  /// Adds the landmark at the intersection of two bearings (mathematics I.8). `by_camera` has a row for each bearing,
+  /// see by_camera().
   Index add_point(const Intersection& meeting, Index pose_i, Index pose_j, double sigma_bearing_rad,
                   const Eigen::Matrix<double, 2, 4>& by_camera = Eigen::Matrix<double, 2, 4>::Zero());
 
-  /// Adds a landmark from one bearing taken here: its distance is a guess with a spread that includes infinity.
+  /// Adds a landmark from one bearing taken from the present pose. Its distance is a guess whose spread includes
+  /// infinity.
   Index add_ray(double camera_azimuth_rad, double sigma_bearing_rad, double inverse_distance_per_m,
                 double sigma_inverse_distance_per_m, double radius_px = kNoRadius);
 
   InverseDepth ray(Index block) const;
 
-  /// 4 sigma_d |cos parallax| / d (Civera, Davison, Montiel, ICRA 2007): small when a Gaussian point describes the
-  /// landmark in `block` as well as the ray does.
+  /// 4 sigma_d |cos parallax| / d (Civera, Davison, Montiel, ICRA 2007). The index is small when a Gaussian point
+  /// describes the landmark in `block` as well as the ray does.
   double linearity_index(Index block) const;
 
-  /// Turns the ray in `block` into the point it describes; the block stays where it is.
+  /// Converts the ray in `block` to the point it describes; the block keeps its offset.
   void promote(Index block);
 
-  /// Whether two points differ by no more than their joint covariance allows: d^T (P_aa + P_bb - P_ab - P_ba)^-1 d is
-  /// below `chi2` (of 2 degrees of freedom).
+  /// Whether the distance d of two points is within their joint covariance: d^T (P_aa + P_bb - P_ab - P_ba)^-1 d is
+  /// below `chi2` (2 degrees of freedom).
   bool may_be_one(Index point_a, Index point_b, double chi2) const;
 
-  /// Makes one point of two that are the same: what is known of both goes into `kept`, `dropped` is removed.
+  /// Merges two points of the same landmark: the information on both goes into `kept`, `dropped` is removed.
   void merge(Index kept, Index dropped);
 
   void remove(Index block, BlockKind kind) { state_.remove(block, kind); }
 
  private:
-  /// What is held cannot turn with the robot's heading.
+  /// Held entries cannot turn with the robot's heading.
   JointState::Retraction retraction() const {
     return state_.holds() ? JointState::Retraction::additive : settings_.retraction;
   }

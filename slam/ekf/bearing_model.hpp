@@ -1,5 +1,5 @@
 #pragma once
-// What azimuth a landmark is seen under (SPEC I.6, eq 30 to 33), for points and for rays in inverse depth.
+// Predicted azimuth of a landmark (mathematics I.6, eq 30 to 33), for points and for rays in inverse depth.
 
 #include <Eigen/Core>
 #include <cmath>
@@ -12,13 +12,13 @@ namespace azimuth {
 /// An azimuth with its derivatives. Frames: pose and landmark in the map, azimuth from the robot's heading.
 template <int LandmarkSize>
 struct PredictedBearing {
-  double azimuth_rad;                                  ///< in [-pi, pi)
+  double azimuth_rad;                                  ///< In [-pi, pi)
   Eigen::RowVector3d by_pose;                          ///< d(azimuth) / d(x, y, heading)
   Eigen::Matrix<double, 1, LandmarkSize> by_landmark;  ///< d(azimuth) / d(landmark)
 };
 
-/// h = wrap(atan2(y_f - y_v, x_f - x_v) - phi), eq 30; nothing nearer than `min_distance_m`, where the model breaks
-/// down.
+/// h = wrap(atan2(y_f - y_v, x_f - x_v) - phi), eq 30. Nothing for a landmark nearer than `min_distance_m`, where the
+/// model breaks down.
 inline std::optional<PredictedBearing<2>> predict_bearing(const Pose2& T_map_body,
                                                           const Eigen::Vector2d& p_map_landmark,
                                                           double min_distance_m) {
@@ -30,8 +30,8 @@ inline std::optional<PredictedBearing<2>> predict_bearing(const Pose2& T_map_bod
                              {-dy / q, dx / q}};       // eq 33
 }
 
-/// A landmark on a ray: seen first from `anchor`, in the absolute direction `bearing_rad`, at 1 / `inverse_distance`.
-/// Infinity is the value 0; the state order is (anchor x, anchor y, bearing, inverse distance).
+/// A landmark on a ray: first seen from `anchor`, in the absolute direction `bearing_rad`, at the distance 1 /
+/// `inverse_distance_per_m`; 0 is infinity. The state order is (anchor x, anchor y, bearing, inverse distance).
 struct InverseDepth {
   Eigen::Vector2d anchor;
   double bearing_rad;
@@ -40,8 +40,8 @@ struct InverseDepth {
   Eigen::Vector2d direction() const { return {std::cos(bearing_rad), std::sin(bearing_rad)}; }
 };
 
-/// The direction to anchor + direction / rho is that of m = rho (anchor - p) + direction, which stays finite for
-/// rho = 0. Nothing when the point lies nearer than `min_distance_m`.
+/// The direction to anchor + direction / rho is that of m = rho (anchor - p) + direction, which stays finite for rho =
+/// 0. Nothing when the point is nearer than `min_distance_m`.
 inline std::optional<PredictedBearing<4>> predict_bearing(const Pose2& T_map_body, const InverseDepth& ray,
                                                           double min_distance_m) {
   const double rho = ray.inverse_distance_per_m;
@@ -59,8 +59,8 @@ inline std::optional<PredictedBearing<4>> predict_bearing(const Pose2& T_map_bod
   return predicted;
 }
 
-/// How the vector whose angle is the azimuth gets longer: d(log length) / d(x, y) and / d(landmark). Only where
-/// predict_bearing() gives something.
+/// Relative change in length of the vector whose angle is the azimuth: d(log length) / d(x, y) and / d(landmark).
+/// Defined only where predict_bearing() returns a value.
 template <int LandmarkSize>
 struct Stretch {
   Eigen::RowVector2d by_position;
@@ -81,7 +81,7 @@ inline Stretch<4> stretch(const Pose2& T_map_body, const InverseDepth& ray) {
   return result;
 }
 
-/// The point a ray describes, with its derivative by (anchor x, anchor y, bearing, inverse distance);
+/// The point that a ray describes, and its derivative by (anchor x, anchor y, bearing, inverse distance).
 /// `inverse_distance_per_m` must not be 0.
 inline Eigen::Vector2d point_of(const InverseDepth& ray, Eigen::Matrix<double, 2, 4>* jacobian = nullptr) {
   const double distance_m = 1.0 / ray.inverse_distance_per_m;

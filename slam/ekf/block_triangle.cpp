@@ -11,12 +11,12 @@ namespace azimuth {
 namespace {
 
 constexpr Index kFirstCapacity = 64;
-// Keeps columns from starting a power of two apart, where they would share cache sets; a whole tile of the rank update.
+// Keeps columns from starting a power of two apart, where they would share cache sets. One tile of the rank update.
 constexpr Index kPadding = LowerTriangle::kTile;
 static_assert(kFirstCapacity % LowerTriangle::kTile == 0);
 
-/// The block of P in which two parts meet: its first element, and how far the next row and the next column are. A part
-/// that meets itself, or another of its block, lies on both sides of the diagonal: there is none.
+/// The block of P at the rows of one part and the columns of another: its first element, and the steps to the next row
+/// and the next column. Undefined for two parts that overlap, since their block contains the diagonal.
 struct Meeting {
   const double* first;
   Index to_next_row, to_next_column;
@@ -35,8 +35,8 @@ std::optional<Meeting> meeting(const BlockTriangle& P, const ObservationRow::Par
 
 }  // namespace
 
-// Parts meet in whole blocks: which side of the diagonal is told once a block, not once an element. The order of each
-// sum is that of the elements, whichever way they are reached.
+// Two parts meet in a whole block, so the side of the diagonal is decided once per block, not once per element. The
+// order of summation does not depend on the side.
 double BlockTriangle::between(const ObservationRow& a, const ObservationRow& b) const {
   double sum = 0.0;
   for (std::size_t p = 0; p < as_size(a.count); ++p)
@@ -55,7 +55,7 @@ double BlockTriangle::between(const ObservationRow& a, const ObservationRow& b) 
 
 Eigen::Matrix2d BlockTriangle::between(const RowPair& a, const RowPair& b) const {
   assert(same_parts(a[0], a[1]) && same_parts(b[0], b[1]));
-  double s00 = 0.0, s01 = 0.0, s10 = 0.0, s11 = 0.0;  // each in the order of a single one
+  double s00 = 0.0, s01 = 0.0, s10 = 0.0, s11 = 0.0;  // each summed in the order used for a single pair of rows
   for (std::size_t p = 0; p < as_size(a[0].count); ++p)
     for (std::size_t q = 0; q < as_size(b[0].count); ++q) {
       const ObservationRow::Part &pa = a[0].parts[p], &pb = b[0].parts[q];

@@ -9,18 +9,18 @@
 
 namespace azimuth {
 
-/// A symmetric matrix over blocks of rows that come and go, kept as one lower triangle whose storage grows by doubling.
-/// A released block leaves a gap that the next block of its size fills, so adding and removing costs one row and column
-/// and never moves the matrix; entries of gaps are zero.
+/// A symmetric matrix over blocks of rows that are added and removed, stored as one lower triangle that grows by
+/// doubling. A released block leaves a gap that the next block of its size fills, so adding and removing costs one row
+/// and column and never moves the matrix. Entries of gaps are zero.
 ///
 /// Thread contract: thread-bound. Nothing allocates unless the matrix grows beyond its largest size so far.
 class BlockTriangle {
  public:
   static constexpr Index kLargestBlock = 5;
 
-  /// One beyond the last row in use; gaps count.
+  /// One beyond the last row in use, gaps included.
   Index extent() const { return extent_; }
-  /// Rows there is storage for, and doubles from one column to the next.
+  /// `capacity`: number of rows for which there is storage. `stride`: doubles from one column to the next.
   Index capacity() const { return capacity_; }
   Index stride() const { return stride_; }
 
@@ -29,19 +29,19 @@ class BlockTriangle {
   }
   double& element(Index row, Index column) { return storage_[row >= column ? at(row, column) : at(column, row)]; }
 
-  /// Rows from the diagonal down are the matrix's; those above are scratch.
+  /// The rows from the diagonal down belong to the matrix; those above are scratch.
   double* column(Index column) { return storage_.data() + at(0, column); }
   const double* column(Index column) const { return storage_.data() + at(0, column); }
   LowerTriangle lower() { return {storage_.data(), extent_, stride_}; }
 
   /// H_a P H_b^T.
   double between(const ObservationRow& a, const ObservationRow& b) const;
-  /// The same for each of two rows by each of two others. The rows of a pair have the same parts.
+  /// H_a P H_b^T for each row of `a` with each row of `b`. The rows of a pair have the same parts.
   Eigen::Matrix2d between(const RowPair& a, const RowPair& b) const;
 
-  /// The first of `size` adjacent rows, which are zero.
+  /// Returns the first of `size` adjacent rows, which are zero.
   Index allocate(Index size);
-  /// Makes a gap of `size` rows, at most kLargestBlock.
+  /// Turns `size` rows, at most kLargestBlock, into a gap.
   void release(Index first, Index size);
 
  private:
@@ -50,7 +50,7 @@ class BlockTriangle {
 
   Index capacity_ = 0, stride_ = 0, extent_ = 0;
   AlignedVector storage_;                                   // column-major
-  std::array<std::vector<Index>, kLargestBlock + 1> gaps_;  // first rows, by size
+  std::array<std::vector<Index>, kLargestBlock + 1> gaps_;  // first rows, by size of the gap
 };
 
 }  // namespace azimuth

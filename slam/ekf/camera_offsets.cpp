@@ -5,7 +5,7 @@
 namespace azimuth {
 namespace {
 
-/// l(r) and dl/dr; nothing beyond the end of the image.
+/// l(r) and dl/dr; zero beyond the edge of the image.
 struct Lean {
   double length_px = 0.0, slope = 0.0;
 };

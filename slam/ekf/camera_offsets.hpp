@@ -1,13 +1,13 @@
 #pragma once
-// What a camera that is other than its rig says does to azimuths (SPEC VI.34).
+// Effect on azimuths of a camera that differs from its rig (mathematics VI.34).
 //
-// With q = r (cos z, sin z) the pixel seen from the centre that was said, an axis at e sees p0 = q - e, and one that
-// leans by (roll, pitch) has there what a level one would have at
+// Let q = r (cos z, sin z) be the pixel relative to the rig's centre. If the centre is off by e, the pixel relative to
+// the true centre is p0 = q - e. If the camera leans by (roll, pitch), a level camera would show the direction at
 //
 //   p = p0 + l(|p0|) (pitch, -roll),   l(r) = r tan(elevation at r)
 //
-// up to the tilt squared; the azimuth is the angle of p. A tilt is an offset of the centre but for l, which is bounded:
-// at the centre of a lens it is its focal length.
+// to first order in the tilt. The azimuth is the angle of p. A tilt acts like an offset of the centre, scaled by l,
+// which is bounded: at the centre of a lens it is its focal length.
 
 #include <Eigen/Core>
 #include <cmath>
@@ -18,34 +18,34 @@
 
 namespace azimuth {
 
-/// As the camera should have shown it.
+/// A pixel as a camera without these errors would show it.
 struct CentredPixel {
   Eigen::Vector2d p_px;
-  Eigen::Matrix<double, 2, 4> by_camera;  ///< by CameraErrors::mean
+  Eigen::Matrix<double, 2, 4> by_camera;  ///< Derivative by CameraErrors::mean
 };
 
-/// Without a profile tilts do nothing. `errors` as CameraErrors::mean.
+/// Without a profile the tilt has no effect. `errors` is laid out as CameraErrors::mean.
 CentredPixel centred(double azimuth_rad, double radius_px, const Eigen::Vector4d& errors,
                      const std::optional<RadialProfile>& profile);
 
-/// An azimuth with the camera's offsets taken out.
+/// An azimuth corrected for the camera's offsets.
 struct CorrectedAzimuth {
   double azimuth_rad;
-  Eigen::RowVector4d by_camera;  ///< by CameraErrors::mean
+  Eigen::RowVector4d by_camera;  ///< Derivative by CameraErrors::mean
 };
 
-/// How the camera differs from its description: constants, or blocks of the state.
+/// How the camera differs from its rig: constants, or blocks of the state.
 struct CameraOffsets {
-  static constexpr double kNearCentre_px = 2.0;  ///< nearer pixels say nothing of the azimuth
+  static constexpr double kNearCentre_px = 2.0;  ///< Pixels nearer to the centre carry no information on the azimuth
 
-  double yaw_rad = 0.0;  ///< robot azimuth = camera azimuth + yaw; while there is no block for it
+  double yaw_rad = 0.0;  ///< Robot azimuth = camera azimuth + yaw; used while there is no yaw_block
   std::optional<Index> yaw_block;
-  std::optional<Index> errors_block;          ///< the centre's offset and, with a profile, the tilt behind it
-  std::optional<RadialProfile> profile = {};  ///< from radius to elevation, of a camera whose tilt is unknown
+  std::optional<Index> errors_block;          ///< The centre's offset, followed by the tilt if there is a profile
+  std::optional<RadialProfile> profile = {};  ///< Radius to elevation; set if the tilt is estimated
 
   Index errors_size() const { return !errors_block ? 0 : profile ? 4 : 2; }
 
-  /// `mean(entry)` gives the state.
+  /// `mean(entry)` returns an entry of the state.
   template <class Mean>
   Eigen::Vector4d errors(const Mean& mean) const {
     Eigen::Vector4d errors = Eigen::Vector4d::Zero();
@@ -53,7 +53,7 @@ struct CameraOffsets {
     return errors;
   }
 
-  /// A bearing without a radius does not care where the centre is.
+  /// A bearing without a radius does not depend on the centre.
   template <class Mean>
   CorrectedAzimuth correct(double azimuth_rad, double radius_px, const Mean& mean) const {
     const double turn_rad = yaw_block ? mean(*yaw_block) : yaw_rad;

@@ -4,8 +4,8 @@
 
 namespace azimuth {
 
-/// Adjacent columns of a matrix and a factor for each; `first` points at the row where the sum begins, `stride` doubles
-/// from one column to the next.
+/// Adjacent columns of a matrix with a factor for each. `first` points at the row where the sum starts; the columns are
+/// `stride` doubles apart.
 struct ScaledColumns {
   const double* first;
   Eigen::Index stride;
@@ -13,9 +13,9 @@ struct ScaledColumns {
   Eigen::Index count;
 };
 
-/// out += A_1 f_1 + A_2 f_2 + ... on `size` rows, in one pass, since memory is what takes time: for each element the
+/// out += A_1 f_1 + A_2 f_2 + ... on `size` rows, in one pass, since memory access dominates. For each element the
 /// columns of a part are summed from first to last, then the parts in their order. Every product is rounded before it
-/// is added: the result is the same to the last bit on every processor.
+/// is added, so the result is the same to the last bit on every processor.
 void add_columns(std::span<const ScaledColumns> parts, Eigen::Index size, double* out);
 
 }  // namespace azimuth

@@ -1,5 +1,5 @@
-// Compiled with -mavx2 (CMakeLists.txt) and without FMA, which would round differently; reached only where the
-// processor has it.
+// Compiled with -mavx2 (CMakeLists.txt) and without FMA, which would round differently. Called only on processors with
+// AVX2.
 
 #include "slam/ekf/column_sum_avx2.hpp"
 

@@ -1,18 +1,19 @@
 #pragma once
-// The odometer's scales, drift and lag and the camera's mounting as constants that a filter considers.
+// The odometer's scales, drift and lag, and the camera's mounting, as constants that a filter considers.
 //
-// No bearing tells the scale of distance: a map twice as large, driven through twice as far, looks the same. An error s
-// of it stays in path and map for good, and what it makes uncertain, sigma_s^2 p p^T as seen from the first pose, grows
-// with the distance from there and is gone on return. Noise added step by step says neither. The scale of turn can be
-// told, and is, by what corrects the heading; what is left of it shows here.
+// Bearings carry no information on the scale of distance: a map twice as large, driven through twice as far, looks the
+// same. A scale error s stays in path and map for good. The uncertainty that it causes, sigma_s^2 p p^T as seen from
+// the first pose, grows with the distance from the first pose and vanishes on return to it. Noise added in each step
+// models neither. The scale of turns is observable, and is determined by what corrects the heading; its remaining error
+// is considered here.
 //
-// A camera that is mounted otherwise than the rig says, by e = (e_x, e_y, e_yaw), sees from T_map_body * e, and that is
-// the pose that the filter estimates: bearings of it are as they should be, and what is off are its motions, e^-1 *
-// motion * e. So nothing but the motion depends on e, the first pose, and the robot's when it is told.
+// If the camera's mounting differs from the rig's by e = (e_x, e_y, e_yaw), the camera sees from T_map_body * e. The
+// filter estimates that pose: its bearings are right, and its motions are off, e^-1 * motion * e. So only the motion,
+// the first pose, and the conversion to the robot's pose depend on e.
 //
-// All are carried as JointState::consider() says. A filter that knows of the scale of distance in its gains (Schmidt
-// 1966) would be better by nothing, since bearings say nothing of it, and worse in practice: whatever else says
-// something of it, the guess of a new landmark's distance above all, then moves the whole map.
+// All constants are carried as described at JointState::consider(). A filter that accounts for the scale of distance in
+// its gains (Schmidt 1966) gains nothing, since bearings do not observe the scale, and is worse in practice: anything
+// correlated with the scale, above all the guess of a new landmark's distance, then moves the whole map.
 
 #include <Eigen/Core>
 #include <cmath>
@@ -22,8 +23,8 @@
 
 namespace azimuth {
 
-/// d(pose') / d(errors), `moved` being where a motion leads from `T_map_camera`:
-///   by the camera's yaw -perp(p' - p), by its place R' - R.
+/// d(pose') / d(errors), where `moved` is the result of a motion from `T_map_camera`. The camera's yaw contributes
+/// -perp(p' - p), its position R' - R.
 inline JointState::ByConsidered by_considered(const Pose2& T_map_camera, const MovedPose& moved) {
   const Eigen::Vector2d went = moved.T_map_body.position() - T_map_camera.position();
   JointState::ByConsidered B = JointState::ByConsidered::Zero();
@@ -36,12 +37,12 @@ inline JointState::ByConsidered by_considered(const Pose2& T_map_camera, const M
   return B;
 }
 
-/// By how much the camera is mounted otherwise.
+/// The error of the camera's mounting.
 inline Pose2 mounting(const Considered& errors) {
   return {errors(considered::camera), errors(considered::camera + 1), errors(considered::yaw)};
 }
 
-/// The camera's motion if such errors of the rig are allowed for: e^-1 * (motion + B errors) * e.
+/// The camera's motion when these errors of the rig are taken into account: e^-1 * (motion + B errors) * e.
 inline Motion allowing_for(const Considered& errors, Motion motion) {
   const Eigen::Vector3d off = motion.by_scales * errors.head<2>() + motion.by_lag * errors(considered::lag) +
                               motion.by_drift * errors(considered::drift);
@@ -51,15 +52,15 @@ inline Motion allowing_for(const Considered& errors, Motion motion) {
   return motion;
 }
 
-/// SPEC I.3, eq 15 to 18, by a motion carried over many segments.
+/// mathematics I.3, eq 15 to 18, for a motion that may consist of many segments.
 inline void move(const Motion& motion, JointState& state) {
   const bool allows = !state.believed().isZero(0.0);
   const MovedPose moved = apply(state.pose(), allows ? allowing_for(state.believed(), motion) : motion);
   state.move_robot(moved.T_map_body, moved.G, moved.noise, by_considered(state.pose(), moved));
 }
 
-/// What the errors make of a place in a map that began at its origin with the robot there: it is as large as the
-/// odometer counts, and stands as the camera was mounted. [p, perp(p), I]
+/// Derivative by the errors of a position in a map whose origin is the first pose: the map scales with the odometer,
+/// and is turned and shifted with the camera's mounting. Columns: [p, perp(p), I]
 inline Eigen::Matrix<double, 2, considered::kCount> of_place(const Eigen::Vector2d& p_map) {
   Eigen::Matrix<double, 2, considered::kCount> D = Eigen::Matrix<double, 2, considered::kCount>::Zero();
   D.col(considered::scale_distance) = p_map;
@@ -71,13 +72,14 @@ inline void set_of_place(Index position, JointState& state) {
   const auto D = of_place(state.position(position));
   for (const Index i : {0, 1}) state.set_by_considered(position + i, D.row(i));
 }
-/// The pose's, where it is put into such a map, or begins one, by what has to do with nothing else in the state.
+/// Sets the derivatives of the robot's pose when the robot is placed in a map whose origin is the first pose, or starts
+/// such a map, uncorrelated with the other states.
 inline void set_of_placed_robot(JointState& state) {
   set_of_place(JointState::kPose, state);
   state.set_by_considered(JointState::kHeading, Considered::Unit(considered::yaw).transpose());
 }
 
-/// What the errors make uncertain of the `Size` entries from `block` on, by rows of J: J D diag(variances) D^T J^T.
+/// Covariance due to the considered errors of J times the `Size` entries from `block` on: J D diag(variances) D^T J^T.
 template <int Rows, int Size>
 Eigen::Matrix<double, Rows, Rows> covariance_by_considered(const JointState& state, Index block,
                                                            const Eigen::Matrix<double, Rows, Size>& J) {

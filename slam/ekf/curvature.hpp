@@ -1,21 +1,22 @@
 #pragma once
-// What a linear update leaves out of a bearing.
+// Noise charged for the second-order terms that a linear update of a bearing leaves out.
 //
 // A bearing is the angle of a vector v that the state describes: from the robot to the landmark or, in the image, from
-// the centre to the pixel. When v is off by dv, with a = across . dv / |v| and l = along . dv / |v|, its angle is off
-// by
+// the centre to the pixel. For an error dv of v, let a = across . dv / |v| and l = along . dv / |v|. The error of the
+// angle is
 //
 //   a - a l + ...
 //
-// The linear update knows a; a l is an error of every bearing whose v is uncertain in length. It is no noise: robot and
-// centre are off by the same in all bearings of an image, so it does not average out, and a filter that believes its
-// Jacobian gains from many precise bearings what none of them says, above all the scale of the map. Its second moment
-// for Gaussian dv, var(a) var(l) + cov(a, l)^2, is charged to the bearing as noise of its own (the second-order filter
-// of Jazwinski, "Stochastic processes and filtering theory", 1970, without its bias). It falls with the fourth power of
-// what is unknown: once pose, centre and landmark are known, bearings count in full.
+// The linear update models a. The term a l is an error of every bearing whose v is uncertain in length. It is not
+// independent noise: the errors of robot and centre are the same in all bearings of an image, so they do not average
+// out, and a filter that trusts its Jacobian gains information from many precise bearings that none of them carries,
+// above all on the scale of the map. The second moment of a l for Gaussian dv, var(a) var(l) + cov(a, l)^2, is
+// therefore added to the bearing's noise (the second-order filter of Jazwinski, "Stochastic processes and filtering
+// theory", 1970, without its bias). It falls with the fourth power of the uncertainty: once pose, centre and landmark
+// are known, bearings count in full.
 //
-// The vector m = rho (anchor - p) + u(bearing) of a ray has a term of second order itself, d(rho) d(anchor - p), of
-// which the part across counts likewise.
+// For a ray, the vector m = rho (anchor - p) + u(bearing) has a second-order term of its own, d(rho) d(anchor - p),
+// whose part across m is charged in the same way.
 
 #include <Eigen/Core>
 #include <cmath>
@@ -24,17 +25,17 @@
 
 namespace azimuth {
 
-/// Second moment of the product of two Gaussian errors, less that of its mean.
+/// Variance of the product of two zero-mean Gaussian errors.
 inline double variance_of_product(double variance_a, double variance_b, double covariance) {
   return variance_a * variance_b + covariance * covariance;
 }
 
-/// Likewise of what two rows measure.
+/// Variance of the product of the errors of two rows' measurements.
 inline double variance_of_product(const JointState& state, const ObservationRow& a, const ObservationRow& b) {
   return variance_of_product(state.covariance(a, a), state.covariance(b, b), state.covariance(a, b));
 }
 
-/// What is left out of the angle [rad^2] of the pixel `p_px` seen from a centre whose place has this covariance.
+/// Second-order variance of the angle [rad^2] of the pixel `p_px` relative to a centre with this covariance.
 inline double curvature_by_centre_rad2(const Eigen::Vector2d& p_px, const Eigen::Matrix2d& covariance_px2,
                                        double nearest_px) {
   const double r2 = std::max(p_px.squaredNorm(), nearest_px * nearest_px);

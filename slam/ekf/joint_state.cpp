@@ -10,7 +10,7 @@
 namespace azimuth {
 namespace {
 
-// Below this heading variance there is no heading uncertainty whose direction could be wrong.
+// Below this heading variance the shear of the covariance is negligible.
 constexpr double kCertainHeading_rad2 = 1e-18;
 
 }  // namespace
@@ -73,7 +73,7 @@ void JointState::inflate_robot(const Eigen::Matrix3d& noise) {
 void JointState::replace_robot(const Pose2& T_map_body, std::span<const Index> sources,
                                const Eigen::Matrix3Xd& jacobian, const Eigen::Matrix3d& noise) {
   assert(jacobian.cols() == as_index(sources.size()));
-  // P_vm = J P_sources,m, then P_vv = J P_sources,v + noise: no source is one of the entries that are written.
+  // P_vm = J P_sources,m, then P_vv = J P_sources,v + noise. No source is one of the entries that are written.
   const auto combine = [&](Index r, Index column) {
     double sum = 0.0;
     for (std::size_t s = 0; s < sources.size(); ++s) sum += jacobian(r, as_index(s)) * covariance(sources[s], column);
@@ -108,7 +108,7 @@ Index JointState::add(BlockKind kind, const Eigen::Ref<const Eigen::VectorXd>& m
   assert(mean.size() == size && jacobian.rows() == size && noise.rows() == size && noise.cols() == size);
   assert(jacobian.cols() == as_index(sources.size()));
   const Index block = allocate(kind);
-  // P_new,* = J P_sources,* for all that was there before (the new entries are still zero).
+  // P_new,* = J P_sources,* for all existing entries (the new entries are still zero).
   for (Index i = 0; i < extent(); ++i) {
     if (i >= block && i < block + size) continue;
     for (Index r = 0; r < size; ++r) {
@@ -140,7 +140,7 @@ void JointState::promote(Index block, const Eigen::Vector3d& position, const Eig
   entries_[as_size(block + 2)] = Entry::plain;
 }
 
-/// P <- J P J^T for the block's entries, of which the last ones become a gap.
+/// P <- J P J^T for the block's entries; the last ones become a gap.
 template <int New, int Old>
 void JointState::replace_by_fewer(Index block, const Eigen::Matrix<double, New, 1>& mean,
                                   const Eigen::Matrix<double, New, Old>& jacobian) {
@@ -177,8 +177,8 @@ bool JointState::update(std::span<const ObservationRow> rows, Retraction retract
   return true;
 }
 
-/// x <- x + K nu. Leaves in shear_, as apply_correction() does, by how much each position moved, turned by a right
-/// angle.
+/// x <- x + K nu. Writes the displacement of each position, turned by a right angle, into shear_, as apply_correction()
+/// does.
 void JointState::correct_mean(Index rows, Retraction retraction) {
   auto correction = correction_.head(extent());
   correction.setZero();
@@ -208,7 +208,8 @@ void JointState::apply_correction(Retraction retraction) {
   }
 }
 
-/// What is held takes no gain: x_f <- x_f + K_f nu, P_ff <- P_ff - W_f W_f^T, P_hf <- P_hf - W_h W_f^T, and P_hh stays.
+/// Held entries (h) take no gain, free ones (f) do: x_f <- x_f + K_f nu, P_ff <- P_ff - W_f W_f^T, P_hf <- P_hf - W_h
+/// W_f^T; P_hh stays.
 void JointState::correct_free(Index rows) {
   for (Index c = 0; c < held_from_; ++c) {
     Eigen::Map<Eigen::VectorXd> column(P_.column(c) + c, extent() - c);
@@ -222,16 +223,17 @@ void JointState::correct_entry(Index entry, Index rows) {
   if (entries_[as_size(entry)] == Entry::angle) mean_(entry) = wrap(mean_(entry));
 }
 
-/// The covariance is kept in coordinates (position, heading) at the present mean. The invariant error did not change
-/// when the mean moved, so those coordinates did: P <- T P T^T with T = I + u e_heading^T and u = (q+ - q)_perp, that
-/// is P += u v^T + v u^T with v = P e_heading + u P_heading / 2, P being the covariance after the update.
+/// The covariance is stored in coordinates (position, heading) at the present mean. Moving the mean leaves the
+/// invariant error unchanged, so these coordinates change: P <- T P T^T with T = I + u e_heading^T and u = (q+ -
+/// q)_perp, that is P += u v^T + v u^T with v = P e_heading + u P_heading / 2, where P is the covariance after the
+/// update.
 bool JointState::append_shear(Index count) {
   auto v = batch_.W(count + 1);
   for (Index i = 0; i < extent(); ++i) v(i) = covariance(i, kHeading);
   batch_.subtract_products_with(kHeading, count, v.data());
   if (!(v(kHeading) > kCertainHeading_rad2)) return false;
   const auto u = shear_.head(extent());
-  v = -(v + 0.5 * v(kHeading) * u);  // for it is subtracted
+  v = -(v + 0.5 * v(kHeading) * u);  // negative, since the product is subtracted
   batch_.W(count) = u;
   return true;
 }
@@ -240,7 +242,7 @@ Index JointState::allocate(BlockKind kind) {
   assert(!holds());
   const Index block = P_.allocate(size_of(kind));
   fit_to_storage();
-  using Tags = std::array<Entry, BlockTriangle::kLargestBlock>;  // the rest of a block are gaps
+  using Tags = std::array<Entry, BlockTriangle::kLargestBlock>;  // shorter blocks end with gaps
   static constexpr std::array<Tags, 7> kTags{{{Entry::x, Entry::y, Entry::angle},
                                               {Entry::x, Entry::y},
                                               {Entry::x, Entry::y, Entry::angle, Entry::plain},

@@ -1,4 +1,4 @@
-// JointState: what is considered, not estimated: constants, and all but one block of the state.
+// JointState: considered quantities that are not estimated: constants, and all but one block of the state.
 
 #include <algorithm>
 
@@ -13,7 +13,7 @@ void JointState::move_robot(const Pose2& T_map_body, const Eigen::Matrix3d& G, c
   move_robot(T_map_body, G, noise);
 }
 
-/// L^-1 H D.
+/// Computes L^-1 H D into whitened_HD_.
 void JointState::whiten_considered(std::span<const ObservationRow> rows) {
   if (whitened_HD_.rows() < batch_.most_rows()) whitened_HD_.resize(batch_.most_rows(), kConsidered);
   for (Index r = 0; r < as_index(rows.size()); ++r) {
@@ -27,8 +27,8 @@ void JointState::whiten_considered(std::span<const ObservationRow> rows) {
   }
 }
 
-/* D <- D - K H D = D - W L^-1 H D, W being whitened by now. What is held takes no gain. The invariant error's
- * coordinates move with the mean as those of the covariance do, by T = I + u e_heading^T. */
+/* D <- D - K H D = D - W L^-1 H D with the whitened W. Held entries take no gain. The coordinates of the invariant
+ * error move with the mean as those of the covariance do, by T = I + u e_heading^T. */
 void JointState::correct_considered(std::span<const ObservationRow> rows, Retraction retraction) {
   if (considered_.isZero(0.0)) return;
   whiten_considered(rows);
@@ -49,7 +49,7 @@ void JointState::shear_considered() {
   for (Index c = 0; c < kConsidered; ++c) D_.col(c).head(extent()) += by_heading(c) * shear_.head(extent());
 }
 
-/* The coordinates of P and D move with the mean as in an update: this is one without rows. */
+/* The coordinates of P and D move with the mean as in an update; this is an update without rows. */
 void JointState::believe(const Considered& errors, Retraction retraction) {
   correction_.head(extent()).noalias() = D_.topRows(extent()) * (errors - believed_);
   believed_ = errors;
@@ -59,7 +59,7 @@ void JointState::believe(const Considered& errors, Retraction retraction) {
   if (append_shear(0)) batch_.subtract_from(P_, 0, 1);
 }
 
-/* With the gain (K_b, 0) the joint covariance loses W_b W^T in the block's rows and columns, and nothing elsewhere. */
+/* With the gain (K_b, 0) the joint covariance decreases by W_b W^T in the block's rows and columns only. */
 bool JointState::update_only(Index block, BlockKind kind, std::span<const ObservationRow> rows) {
   const Index count = as_index(rows.size());
   if (!batch_.compute(P_, rows)) return false;
@@ -67,7 +67,7 @@ bool JointState::update_only(Index block, BlockKind kind, std::span<const Observ
   const Index end = block + size_of(kind);
   for (Index i = block; i < end; ++i) {
     for (Index j = 0; j < extent(); ++j) {
-      if (j >= block && j < i) continue;  // both entries are the block's: once
+      if (j >= block && j < i) continue;  // both entries belong to the block: update once
       for (Index k = 0; k < count; ++k) P_.element(i, j) -= batch_.W(k)(i) * batch_.W(k)(j);
     }
     for (Index k = 0; k < count; ++k) D_.row(i) -= batch_.W(k)(i) * whitened_HD_.row(k);

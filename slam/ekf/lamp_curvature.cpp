@@ -8,7 +8,7 @@
 namespace azimuth {
 namespace {
 
-constexpr double kStraightUp = 1e-3;  // sine of a zenith angle below which there is no across and no along
+constexpr double kStraightUp = 1e-3;  // sine of the zenith angle below which across and along are undefined
 
 }  // namespace
 

@@ -1,20 +1,21 @@
 #pragma once
-// What a linear update leaves out of a direction to a lamp; see curvature.hpp for why it is charged as noise.
+// Noise charged for the second-order terms that a linear update of a lamp's direction leaves out; see curvature.hpp for
+// the reason.
 //
-// The lamp. In the plane that touches the sphere where the lamp was seen, M = (m, 1) shows at d_k = (axis_k . M) /
-// (towards . M). With dM the error of M, and s = towards . dM / |M| how much longer it gets, d_k is off by
-// d_k - d_k s, of which the linear update knows d_k. Of m itself (lamp_model.hpp) the terms of second order are
-//   of a point, with dz the error of its height over its height:  -dm dz, so that s grows by dz
-//   of an inverse height:                                          dw R^T (da - dp)
+// The lamp. In the plane tangent to the sphere at the measured direction, M = (m, 1) appears at d_k = (axis_k . M) /
+// (towards . M). For an error dM of M and its relative change in length s = towards . dM / |M|, the error of d_k is
+// d_k - d_k s, of which the linear update models d_k. m itself (lamp_model.hpp) has the second-order terms
+//   for a point, with dz the relative error of its height:  -dm dz, so that s grows by dz
+//   for an inverse height:                                  dw R^T (da - dp)
 //
-// The lens. At the radius r and the zenith angle t it shows, with b = dt/dr, and a = sin(t) / r what turns a step
-// across into an angle: a centre that is off by (x across, y along) [px] moves the direction by (a x, b y) and besides
-// by
+// The lens. At the image radius r with the zenith angle t, let b = dt/dr, and let a = sin(t) / r be the factor from a
+// step across to an angle. An error (x across, y along) [px] of the centre moves the direction by (a x, b y), and in
+// second order by
 //   across  (b cos t - a) / r x y,    along  (b - a cos t) / (2 r) x^2
-// which both vanish in the middle of the image, as they must.
+// Both vanish in the middle of the image.
 //
-// The offset g of a new lamp, kept from its first sighting: a direction off by (c, l) has its offset off by the linear
-// term times 1 + l tan t.
+// The offset g of a new lamp, stored from its first observation: for an error (c, l) of the direction, the error of the
+// offset is the linear term times 1 + l tan t.
 
 #include <Eigen/Core>
 
@@ -22,11 +23,11 @@
 
 namespace azimuth {
 
-/// by_offset . (the rows of m) of a predicted lamp.
+/// The row of by_offset . m for a predicted lamp.
 ObservationRow along(const Eigen::RowVector2d& by_offset, const PredictedLamp& predicted);
 
-/// Variances of (across, along) [rad^2] by an uncertain centre, and by all that is uncertain of the camera.
-/// `covariance` as in CameraErrors.
+/// Variances of (across, along) [rad^2]: lens_curvature() for an uncertain centre, offset_curvature() for all camera
+/// errors. `covariance` is laid out as in CameraErrors.
 Eigen::Vector2d lens_curvature(const LampSeen& seen, const Eigen::Matrix4d& covariance);
 Eigen::Vector2d offset_curvature(const LampSeen& seen, const Eigen::Matrix4d& covariance);
 

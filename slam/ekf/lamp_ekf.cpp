@@ -55,7 +55,7 @@ void LampEkf::predict(const Motion& motion) { move(motion, state_); }
 
 std::vector<Index> LampEkf::restore(const MapSnapshot& map) {
   const std::vector<Index> blocks = azimuth::restore(map, camera_entries(), state_);
-  for (const Index block : blocks)  // heights have grown with the map, from the camera on
+  for (const Index block : blocks)  // heights scale with the map, relative to the camera
     state_.set_by_considered(block + 2, (state_.mean(block + 2) - model_.camera_height_m) *
                                             Considered::Unit(considered::scale_distance).transpose());
   return blocks;
@@ -114,7 +114,7 @@ bool LampEkf::update_lamp(const MappedLampSighting& sighting) {
   return state_.update_only(sighting.lamp.block, sighting.lamp.kind, rows_);
 }
 
-/// Both axes, where they can be linearised.
+/// Appends both axes of the direction, if it can be linearised.
 void LampEkf::append_rows(const MappedLampSighting& sighting) {
   const std::optional<PredictedLamp> predicted = predict(sighting.lamp);
   if (!predicted) return;
@@ -130,7 +130,7 @@ void LampEkf::append_rows(const MappedLampSighting& sighting) {
   }
 }
 
-/// (a, g, w) = (p, R(heading) g_body, w0): G = [I, 0; 0, (-g_y, g_x); 0, 0] by the pose.
+/// (a, g, w) = (p, R(heading) g_body, w0), with the derivative by the pose G = [I, 0; 0, (-g_y, g_x); 0, 0].
 LampBlock LampEkf::add_lamp(const LampSeen& seen, double inverse_height_per_m, double sigma_inverse_height_per_m) {
   const Pose2 T_map_body = state_.pose();
   const Eigen::Matrix2d R_map_body = to_body(T_map_body.heading_rad).transpose();

@@ -1,16 +1,15 @@
 #pragma once
-// How a camera that looks up sees a lamp, without a singularity anywhere above the horizon.
+// How a camera that looks up sees a lamp, without a singularity above the horizon.
 //
-// What the camera sees of a lamp is its horizontal offset for each metre that it hangs above the camera, m, turned into
-// the robot's frame. A lamp straight above has m = 0, and one on the horizon would have it without bound. For a lamp at
-// (q, z), and for one that was first seen from a, in the direction g (an offset per metre itself), at the inverse
-// height w = 1 / (z - camera):
+// The camera measures the lamp's horizontal offset per metre of height above the camera, m, in the robot's frame. A
+// lamp straight above has m = 0; towards the horizon m grows without bound. For a lamp at (q, z), and for one first
+// seen from a, in the direction g (also an offset per metre), at the inverse height w = 1 / (z - camera):
 //
 //   m = R(heading)^T (q - p) / (z - camera),   m = R(heading)^T (w (a - p) + g)
 //
-// The second is linear in w and holds at w = 0, a lamp infinitely high: that is why a lamp can be mapped from its first
-// sighting on, with a guess of its height, long before there is any parallax (the same idea as inverse depth, Civera,
-// Davison, Montiel 2008, but linear).
+// The second form is linear in w and holds at w = 0, for a lamp infinitely high. A lamp can therefore be mapped from
+// its first observation on, with a guess of its height, long before there is any parallax (the same idea as inverse
+// depth, Civera, Davison, Montiel 2008, but linear).
 
 #include <Eigen/Core>
 #include <cmath>
@@ -21,14 +20,14 @@
 
 namespace azimuth {
 
-/// A lamp as its first sighting describes it; the state order is (anchor, offset per metre, inverse height).
+/// A lamp as its first observation describes it; the state order is (anchor, offset per metre, inverse height).
 struct InverseHeight {
-  Eigen::Vector2d anchor;            ///< where the camera was, in the map
+  Eigen::Vector2d anchor;            ///< Position of the camera in the map
   Eigen::Vector2d offset_per_metre;  ///< g: towards the lamp, axes of the map
-  double inverse_height_per_m;       ///< w: above the camera
+  double inverse_height_per_m;       ///< w: of the height above the camera
 };
 
-/// m and what moves it. By the robot's pose (x, y, heading) and by the lamp's own entries.
+/// m with its derivatives by the robot's pose (x, y, heading) and by the lamp's entries.
 template <int LampSize>
 struct LampOffset {
   Eigen::Vector2d m;
@@ -55,8 +54,8 @@ inline LampOffset<5> predict_offset(const Pose2& T_map_body, const InverseHeight
   return seen;
 }
 
-/// Of a lamp at `p_map` (z above the camera's own zero); nothing when it is not at least `min_height_m` above the
-/// camera.
+/// The offset of a lamp at `p_map`, z counting from the map's zero of heights. Nothing when the lamp is less than
+/// `min_height_m` above the camera.
 /* by_pose = [-R^T / dz, d], by_lamp = [R^T / dz, -m / dz] */
 inline std::optional<LampOffset<3>> predict_offset(const Pose2& T_map_body, const Eigen::Vector3d& p_map,
                                                    double camera_height_m, double min_height_m) {
@@ -70,8 +69,8 @@ inline std::optional<LampOffset<3>> predict_offset(const Pose2& T_map_body, cons
   return seen;
 }
 
-/// The point an inverse height describes, with its derivative by (anchor, offset, inverse height); the latter must not
-/// be 0.
+/// The point that an inverse height describes, with its derivative by (anchor, offset, inverse height). The inverse
+/// height must not be 0.
 inline Eigen::Vector3d point_of(const InverseHeight& lamp, double camera_height_m,
                                 Eigen::Matrix<double, 3, 5>* jacobian = nullptr) {
   const double height_m = 1.0 / lamp.inverse_height_per_m;

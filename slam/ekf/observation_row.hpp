@@ -24,7 +24,7 @@ struct ObservationRow {
   void add(Index offset, std::span<const double> coefficients);
 };
 
-/// What one direction measures: its two axes.
+/// The two axes of one measured direction.
 using RowPair = std::array<ObservationRow, 2>;
 
 }  // namespace azimuth

@@ -1,5 +1,5 @@
-// The hot loops of the EKF: at 500 landmarks they touch half a million elements a step. They are compiled for three
-// kinds of processor and chosen at run time: robots carry old computers.
+// The hot loops of the EKF: at 500 landmarks they touch half a million elements per step. They are compiled for three
+// kinds of processor and chosen at run time, since robots carry old computers too.
 
 #include "slam/ekf/rank_update.hpp"
 

@@ -3,21 +3,21 @@
 
 namespace azimuth {
 
-/// A symmetric matrix of which only the lower triangle counts: column j holds rows j to size-1, `stride` doubles from
-/// one column to the next. What lies above the diagonal is scratch, and so is the rest of the storage, which has room
-/// for padded(size) rows and columns.
+/// A symmetric matrix of which only the lower triangle counts: column j holds rows j to size-1; columns are `stride`
+/// doubles apart. Elements above the diagonal are scratch, and so is the rest of the storage, which has room for
+/// padded(size) rows and columns.
 struct LowerTriangle {
   double* data;
   Eigen::Index size;
   Eigen::Index stride;
 
-  static constexpr Eigen::Index kTile = 16;  ///< the largest number of rows or columns written at once
+  static constexpr Eigen::Index kTile = 16;  ///< Largest number of rows or columns written at once
   static constexpr Eigen::Index padded(Eigen::Index size) { return (size + kTile - 1) / kTile * kTile; }
 };
 
-/// A sum of w w^T over the first `squares` columns w of W, and of u v^T + v u^T over the `pairs` of columns (u, v)
-/// after them. W is column-major, `stride` doubles from one column to the next, readable up to padded(size) rows of the
-/// matrix that it goes to; without columns it may be null.
+/// The sum of w w^T over the first `squares` columns w of W, and of u v^T + v u^T over the `pairs` of columns (u, v)
+/// after them. W is column-major with columns `stride` doubles apart, and must be readable up to padded(size) rows of
+/// the matrix it is subtracted from. Without columns W may be null.
 struct SymmetricProduct {
   const double* W;
   Eigen::Index stride;
@@ -30,11 +30,10 @@ struct SymmetricProduct {
 /// the same kind; one with fused multiply-add rounds differently from one without. Does not allocate.
 void subtract_symmetric_product(LowerTriangle A, SymmetricProduct product);
 
-/// W <- W L^-T for a lower triangular L with a positive diagonal: the columns of P H^T made independent of each other.
-/// W is size x `columns`, laid out as above, and may be written up to padded(size) rows; L is columns x columns,
-/// column-major.
+/// W <- W L^-T for a lower triangular L with a positive diagonal: decorrelates the columns of P H^T. W is size x
+/// `columns`, laid out as above, and may be written up to padded(size) rows. L is columns x columns, column-major.
 ///
-/// Same contract as above.
+/// Rounding and allocation as for subtract_symmetric_product().
 void whiten_columns(double* W, Eigen::Index stride, Eigen::Index size, const double* L, Eigen::Index L_stride,
                     Eigen::Index columns);
 

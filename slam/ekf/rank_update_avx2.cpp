@@ -1,4 +1,4 @@
-// Compiled with -mavx2 -mfma (CMakeLists.txt); reached only where the processor has both.
+// Compiled with -mavx2 -mfma (CMakeLists.txt). Called only on processors with both.
 
 #include "slam/ekf/rank_update_avx2.hpp"
 

@@ -1,4 +1,4 @@
-// Compiled with -mavx512f (CMakeLists.txt); reached only where the processor has it.
+// Compiled with -mavx512f (CMakeLists.txt). Called only on processors with AVX-512F.
 
 #include "slam/ekf/rank_update_avx512.hpp"
 

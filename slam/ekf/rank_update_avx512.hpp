@@ -1,7 +1,7 @@
 #pragma once
 #include "slam/ekf/rank_update.hpp"
 
-// As in rank_update.hpp, for processors with AVX-512F only.
+// The kernels of rank_update.hpp for processors with AVX-512F.
 namespace azimuth::avx512 {
 
 void subtract_symmetric_product(LowerTriangle A, SymmetricProduct product);

@@ -7,22 +7,22 @@
 namespace azimuth {
 namespace {
 
-// NOLINTBEGIN(misc-definitions-in-headers): a copy for each instruction set is the point
-constexpr int kDeep = 3, kColumns = 4;   // registers down and columns of a tile
-constexpr Index kRows = kDeep * kLanes;  // of a tile
-// Memory is asked for the elements so many rows further down before this tile is computed: a triangle of 1000 landmarks
-// is twice as fast with it.
+// NOLINTBEGIN(misc-definitions-in-headers): a copy for each instruction set is intended
+constexpr int kDeep = 3, kColumns = 4;   // rows, in registers, and columns of a tile
+constexpr Index kRows = kDeep * kLanes;  // rows of a tile
+// Elements this many rows further down are prefetched before a tile is computed, which halves the time for 1000
+// landmarks.
 constexpr Index kAhead = 3 * kRows, kLine = 8;
 // NOLINTEND(misc-definitions-in-headers)
 static_assert(LowerTriangle::kTile % kLanes == 0 && LowerTriangle::kTile % kColumns == 0);
 
-/// Sums of `Deep` registers' rows of kColumns columns. Twelve sums that do not wait for each other are what keeps two
-/// multipliers busy; with three registers of w and one element of z they fill the sixteen of AVX2.
+/// Sums of `Deep` registers of rows by kColumns columns. Twelve independent sums keep two multipliers busy; with three
+/// registers of w and one element of z they fill the sixteen registers of AVX2.
 template <int Deep>
 using Tile = Lanes[kColumns][Deep];
 
-/// tile += w z^T; each element of w loaded serves four products. Unrolled and always inlined, as what follows: the
-/// sums must live in registers.
+/// tile += w z^T; each element of w loaded serves four products. This function and the following ones are unrolled and
+/// always inlined, since the sums must stay in registers.
 template <int Deep>
 [[gnu::always_inline]] inline void add(Tile<Deep>& t, const double* w, const double* z) {
   Lanes rows[Deep];
@@ -48,14 +48,14 @@ template <int Deep>
   }
 }
 
-/// Each element of the triangle is read and written once.
+/// Reads and writes each element of the triangle once.
 template <int Deep>
 [[gnu::always_inline]] inline void update_tile(const LowerTriangle& A, const SymmetricProduct& product, Index row,
                                                Index column) {
   Tile<Deep> t{};
   double* a = A.data + column * A.stride + row;
 #pragma GCC unroll 4
-  for (Index c = 0; c < kColumns; ++c) {  // a hint only: it may point beyond the matrix
+  for (Index c = 0; c < kColumns; ++c) {  // a hint only: the address may be beyond the matrix
 #pragma GCC unroll 3
     for (Index r = 0; r < Deep * kLanes; r += kLine) __builtin_prefetch(a + c * A.stride + kAhead + r, 1);
   }
@@ -69,16 +69,16 @@ template <int Deep>
   subtract<Deep>(a, A.stride, t);
 }
 
-/// The tiles of one row of them that reach below the diagonal, of the columns from `first` on. A function of its own:
-/// among the loops around it sums would lose their registers to what those loops keep.
+/// The tiles at `row` that reach below the diagonal, for the columns from `first` on. A separate function: inlined into
+/// the caller's loops, the sums would lose their registers to the variables of those loops.
 template <int Deep>
 [[gnu::noinline]] void update_tiles(const LowerTriangle& A, const SymmetricProduct& product, Index row, Index first) {
   for (Index column = first; column < first + LowerTriangle::kTile && column < row + Deep * kLanes; column += kColumns)
     update_tile<Deep>(A, product, row, column);
 }
 
-/// Whole tiles only: those on the diagonal and at the lower edge reach beyond the triangle, into scratch. Several
-/// columns of tiles go down together, so that rows of W fetched from afar are used more than once.
+/// Processes whole tiles only: those on the diagonal and at the lower edge reach into scratch. Several columns of tiles
+/// are processed together, so that rows of W, once in the cache, are used more than once.
 inline void update_triangle(const LowerTriangle& A, const SymmetricProduct& product) {
   for (Index first = 0; first < A.size; first += LowerTriangle::kTile) {
     Index row = first;
@@ -90,8 +90,8 @@ inline void update_triangle(const LowerTriangle& A, const SymmetricProduct& prod
   }
 }
 
-/// Forward substitution on `Deep` registers' rows at once: they stay in the nearest cache while all their columns are
-/// worked on, and each element of L loaded serves them all.
+/// Forward substitution on `Deep` registers of rows at once: these rows stay in the first-level cache for all their
+/// columns, and each element of L loaded serves all of them.
 template <int Deep>
 inline void whiten_rows(double* W, Index stride, const double* L, Index L_stride, Index columns) {
   for (Index c = 0; c < columns; ++c) {
@@ -122,7 +122,7 @@ inline Index whiten_rows_from(Index row, double* W, Index stride, Index size, co
   return row;
 }
 
-/// Eight registers are as many chains of sums as two multipliers can work on.
+/// Eight registers form as many independent sums as two multipliers can work on.
 inline void whiten_all_rows(double* W, Index stride, Index size, const double* L, Index L_stride, Index columns) {
   const Index row = whiten_rows_from<8>(0, W, stride, size, L, L_stride, columns);
   whiten_rows_from<LowerTriangle::kTile / kLanes>(row, W, stride, size, L, L_stride, columns);

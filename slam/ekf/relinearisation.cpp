@@ -11,9 +11,9 @@
 namespace azimuth {
 namespace {
 
-// Iterate until the step is this small a part of its standard deviation; further linearisation error is noise.
+// Iterate until the step is this small relative to the standard deviation; smaller linearisation errors do not matter.
 constexpr double kSettledSigmas = 0.01;
-// A correction beyond this many standard deviations of the prior has left the region the prior describes.
+// A correction of more than this many prior standard deviations has left the region that the prior describes.
 constexpr double kRunawaySigmas = 6.0;
 
 Eigen::Vector2d pair(const std::vector<double>& values, Index i) {
@@ -51,12 +51,12 @@ void Relinearisation::linearise_at_prior(const JointState& state, std::span<cons
   const auto at_prior = [&](Index entry) { return state.mean(entry); };
   for (const MappedSighting& sighting : sightings) {
     const auto row = linearise(sighting, offsets, settings.min_distance_m, at_prior);
-    assert(row);  // the caller passes usable sightings only
+    assert(row);  // the caller passes usable bearings only
     rows.push_back(*row);
   }
 }
 
-/// The entries the rows touch, with their prior mean and covariance.
+/// Copies the prior mean and covariance of the entries that the rows involve.
 void Relinearisation::collect(const JointState& state, const Rows& rows) {
   entries_.clear();
   for (Index i = 0; i < 3; ++i) entries_.push_back(JointState::kPose + i);
@@ -114,7 +114,7 @@ bool Relinearisation::step(const Rows& rows, double& change) {
   return true;
 }
 
-/// The mean after the correction delta, as JointState::update() will make it.
+/// Computes the mean after the correction delta, as JointState::update() will.
 void Relinearisation::move_mean(JointState::Retraction retraction) {
   const bool invariant = retraction == JointState::Retraction::invariant;
   const InvariantMotion turn(delta_[as_size(local(JointState::kHeading))]);
@@ -127,10 +127,10 @@ void Relinearisation::move_mean(JointState::Retraction retraction) {
   }
 }
 
-/// Rows at the present iterate q, expressed in corrections of the prior q0: innovation + H delta. In the invariant case
-/// the error is carried over unchanged when the mean moves, d(position) = d(correction) + (q - q0)_perp d(turn), just
-/// as JointState::update() carries the covariance; the exponential's own derivative differs from that by half the turn,
-/// which the limit on the heading's uncertainty keeps small.
+/// Computes rows at the present iterate q, expressed in corrections of the prior q0: innovation + H delta. In the
+/// invariant case the error is unchanged when the mean moves, d(position) = d(correction) + (q - q0)_perp d(turn), just
+/// as JointState::update() carries the covariance. The derivative of the exponential differs from this by half the
+/// turn, which the limit on the heading's uncertainty keeps small.
 bool Relinearisation::refer_to_prior(std::span<const MappedSighting> sightings, const CameraOffsets& offsets,
                                      const Settings& settings, Rows& rows) {
   const auto at_iterate = [&](Index entry) { return mean_[as_size(local(entry))]; };

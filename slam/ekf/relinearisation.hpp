@@ -17,15 +17,15 @@ namespace azimuth {
 
 /// One bearing of a landmark that is in the state.
 struct MappedSighting {
-  Index pose = JointState::kPose;  ///< block of the pose it was taken from: the robot's, or a clone's
-  Index landmark = 0;              ///< block of the landmark
+  Index pose = JointState::kPose;  ///< Block of the pose it was taken from: the robot's or a clone's
+  Index landmark = 0;              ///< Block of the landmark
   BlockKind kind = BlockKind::point;
-  double azimuth_rad = 0.0;  ///< measured in the camera's frame
+  double azimuth_rad = 0.0;  ///< Measured, in the camera's frame
   double variance_rad2 = 0.0;
-  double radius_px = std::numeric_limits<double>::quiet_NaN();  ///< see Bearing
+  double radius_px = std::numeric_limits<double>::quiet_NaN();  ///< See Bearing
 };
 
-/// Innovation and Jacobian of one sighting, `mean(entry)` giving the state to linearise at. Nothing when the landmark
+/// Innovation and Jacobian of one bearing; `mean(entry)` returns the state to linearise at. Nothing when the landmark
 /// is nearer than `min_distance_m`.
 template <class Mean>
 std::optional<ObservationRow> linearise(const MappedSighting& sighting, const CameraOffsets& offsets,
@@ -57,25 +57,25 @@ std::optional<ObservationRow> linearise(const MappedSighting& sighting, const Ca
   return row;
 }
 
-/// Finds where to linearise a batch of sightings: the posterior mean of an iterated update, computed on the few
-/// entries the sightings touch. This finds the mode of the posterior, which stands for it well only while the prior is
-/// narrow: with a heading uncertain by more than a few degrees the mode commits to one of several explanations, and
-/// the filter does better with the prior's linearisation. The Gauss-Newton step is taken from the prior each time, so
-/// the prior is used once.
+/// Finds the linearisation point for a batch of bearings: the posterior mean of an iterated update, computed on the few
+/// entries that the bearings involve. This is the mode of the posterior, which represents the posterior well only while
+/// the prior is narrow: with a heading uncertain by more than a few degrees the mode commits to one of several
+/// explanations, and linearising at the prior is better. Each Gauss-Newton step starts from the prior, so that the
+/// prior is used once.
 ///
 /// Thread contract: thread-bound; does not allocate once its workspace has grown to the largest batch.
 class Relinearisation {
  public:
   struct Settings {
     int max_iterations;                ///< 1: linearise at the prior mean
-    double iterate_below_heading_rad;  ///< with a less certain heading, linearise at the prior mean
+    double iterate_below_heading_rad;  ///< With a larger sigma of the heading, linearise at the prior mean
     double min_distance_m;
     JointState::Retraction retraction;
   };
 
-  /// Writes into `rows` one row per sighting, to be applied to `state` by a single linear update: Jacobians at the
-  /// final iterate, innovations referred to the prior mean. False when the iteration breaks down (it runs away from the
-  /// prior, or a sighting stops being usable on the way); `rows` are then linearised at the prior mean.
+  /// Writes one row per bearing into `rows`, to be applied to `state` by a single linear update: Jacobians at the final
+  /// iterate, innovations referred to the prior mean. Returns false when the iteration fails (it runs away from the
+  /// prior, or a bearing becomes unusable); `rows` are then linearised at the prior mean.
   bool settle(const JointState& state, std::span<const MappedSighting> sightings, const CameraOffsets& offsets,
               const Settings& settings, std::vector<ObservationRow>& rows);
 
@@ -90,10 +90,10 @@ class Relinearisation {
   bool refer_to_prior(std::span<const MappedSighting> sightings, const CameraOffsets& offsets, const Settings& settings,
                       Rows& rows);
 
-  std::vector<Index> entries_;      // global entries of the sub-state, robot's pose first
-  std::size_t free_ = 0;            // of them, the first so many: the rest is held
+  std::vector<Index> entries_;      // global entries of the sub-state, the robot's pose first
+  std::size_t free_ = 0;            // number of entries_ that are not held; these come first
   std::vector<Index> local_of_;     // inverse of entries_
-  std::vector<std::uint8_t> is_x_;  // entry starts a position
+  std::vector<std::uint8_t> is_x_;  // whether the entry starts a position
   std::vector<double> prior_, mean_, delta_;
   Workspace P_, PHt_, S_, innovation_;
 };

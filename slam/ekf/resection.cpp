@@ -13,14 +13,14 @@ namespace azimuth {
 namespace {
 
 constexpr int kStartsPerSide = 9;
-constexpr std::size_t kRefined = 6;  // the most promising starts
-constexpr double kMargin_m = 2.0;    // around the landmarks' bounding box, at least
+constexpr std::size_t kRefined = 6;  // number of most promising starts
+constexpr double kMargin_m = 2.0;    // minimum margin around the landmarks' bounding box
 constexpr int kIterations = 20;
-constexpr double kSettled = 1e-12;  // metres and radians
-// Two solutions nearer than this many standard deviations are one.
+constexpr double kSettled = 1e-12;  // a smaller step has converged [m, rad]
+// Two solutions nearer than this are the same.
 constexpr double kApart_sigmas = 5.0;
 
-/// The heading that fits the directions best when they are taken at `p`, and how badly it fits.
+/// The heading that fits the directions best at a given position, and the sum of its squared residuals.
 struct Start {
   Pose2 pose;
   double cost = std::numeric_limits<double>::infinity();
@@ -44,7 +44,7 @@ Start start_at(const Eigen::Vector2d& p, std::span<const DirectionTo> directions
   return start;
 }
 
-/// All over the bounding box of the landmarks and half its size around, the best first.
+/// Starts on a grid over the bounding box of the landmarks and half its size around it, best first.
 std::vector<Start> starts(std::span<const DirectionTo> directions) {
   Eigen::Array2d low = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (const DirectionTo& direction : directions) {

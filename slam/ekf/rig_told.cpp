@@ -11,13 +11,14 @@ namespace azimuth {
 namespace {
 
 constexpr double kExact = 0.0;
-constexpr double kLogOddsAgainst = 3.0;  // that a value of a rig is wrong: one in twenty is
-constexpr double kLogOddsToStay = 0.0;   // in doubt
-// What is within this of the rig, once others are doubted as well, was their error, and contradicts nothing.
+constexpr double kLogOddsAgainst = 3.0;  // prior log odds that a value of the rig is right: one in twenty is wrong
+constexpr double kLogOddsToStay = 0.0;   // below these log odds a doubted constant is trusted again
+// A doubted error below this many standard deviations, once other constants are doubted too, was caused by the other
+// constants and is no contradiction.
 constexpr double kTold_sigmas = 2.0;
 using Matrix = Eigen::Matrix<double, considered::kCount, considered::kCount>;
 
-/// Standard deviations; of the scale of distance no bearing tells anything.
+/// Standard deviations of a wrong rig's errors. Zero for the scale of distance, which bearings do not observe.
 Considered if_wrong() {
   Considered sigma = Considered::Constant(kExact);
   sigma(considered::scale_turn) = wrong_rig::kScaleTurn;
@@ -33,12 +34,12 @@ struct Posterior {
   Matrix covariance;
 };
 
-/// `known`: information from before, per constant; that of an exact one means nothing.
+/// `known`: prior information on each constant; ignored for exact ones.
 std::optional<Posterior> posterior(const JointState& state, const Considered& known) {
   Matrix information = state.told_of_considered().information;
   Considered pull = state.told_of_considered().pull;
   for (int i = 0; i < considered::kCount; ++i) {
-    if (state.considered()(i) <= kExact) {  // no part in it
+    if (state.considered()(i) <= kExact) {  // exact: takes no part
       information.row(i).setZero();
       information.col(i).setZero();
       information(i, i) = 1.0;
@@ -52,11 +53,11 @@ std::optional<Posterior> posterior(const JointState& state, const Considered& kn
   return Posterior{factor.solve(pull), factor.solve(Matrix::Identity())};
 }
 
-/// A constant by itself, whatever the others are.
+/// The evidence on one constant, whatever the others are.
 struct Doubt {
-  double log_odds = 0.0;  ///< that the rig is wrong, against that it is as it says, before what rigs are like
-  double sigmas = 0.0;    ///< by how many of its own standard deviations the innovations alone have it off
-  double if_wrong = 0.0;  ///< the mean then
+  double log_odds = 0.0;  ///< Log odds that the rig's value is wrong, without the prior odds
+  double sigmas = 0.0;    ///< Error by the innovations alone, in standard deviations of this error
+  double if_wrong = 0.0;  ///< Mean error if the rig is wrong
 
   bool is_enough() const { return log_odds > kLogOddsToDoubt && sigmas > kCertainOfRig_sigmas; }
 };
@@ -112,7 +113,7 @@ RigTold told_of_rig(const JointState& state) {
   return told;
 }
 
-/// Of a posterior the part that was not known before.
+/// Removes the prior of the lag from the posterior.
 std::optional<LagFound> lag_found(const JointState& state, const RigTold& rig) {
   if (state.considered()(considered::lag) <= kExact) return std::nullopt;
   const double known = rig.is_doubted(considered::lag) ? 1.0 / (wrong_rig::kLag_s * wrong_rig::kLag_s)

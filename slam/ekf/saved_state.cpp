@@ -17,7 +17,7 @@ Index add_point(const MapLandmark& landmark, JointState& state) {
   return state.add(BlockKind::point3, Eigen::Vector3d(p.x(), p.y(), landmark.z_map_landmark_m));
 }
 
-/// The map was made by this odometer and this camera, from the origin on.
+/// The map was made with this odometer and camera, starting at the origin.
 void restore_considered(const std::vector<Index>& blocks, JointState& state) {
   set_of_placed_robot(state);
   for (const Index block : blocks) set_of_place(block, state);

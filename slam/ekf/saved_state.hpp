@@ -1,5 +1,5 @@
 #pragma once
-// A filter's state as a map that outlives it, and the way back.
+// Conversion between a filter's state and a saved map.
 
 #include <vector>
 
@@ -8,12 +8,12 @@
 
 namespace azimuth {
 
-/// Entry of the state from which on a filter keeps what it estimates of its camera, right after the robot's pose.
+/// First entry of the camera's estimated errors in the state, right after the robot's pose.
 inline constexpr Index kCameraEntry = 3;
 
-/// Puts what a map says of pose, camera and landmarks into a state that has none yet; landmarks become points, with a
-/// height where the map has one. The camera is left as it is when the map's filter estimated something else of it than
-/// `camera_entries` entries. Returns the points' blocks.
+/// Writes pose, camera and landmarks of a map into a state that has no landmarks yet. Landmarks become points, with a
+/// height where the map has one. The camera is not restored if the map does not have `camera_entries` camera entries.
+/// Returns the points' blocks.
 std::vector<Index> restore(const MapSnapshot& map, Index camera_entries, JointState& state);
 
 /// Collects the landmarks of a state that are to be saved.
@@ -22,11 +22,12 @@ std::vector<Index> restore(const MapSnapshot& map, Index camera_entries, JointSt
 class StateSaver {
  public:
   void clear() { saved_.clear(); }
-  /// A landmark that is a point of the state (point or point3) in `block`; its place is taken from there.
+  /// Adds a landmark that is a point (point or point3) of the state in `block`; its position is taken from there.
   void add(Index block, BlockKind kind, const MapLandmark& landmark) { saved_.push_back({block, kind, landmark}); }
   bool empty() const { return saved_.empty(); }
 
-  /// Pose, camera, landmarks in the order of their blocks, and the joint covariance of all; the rest is left as it is.
+  /// Writes pose, camera, landmarks in the order of their blocks, and their joint covariance. Leaves the rest of `out`
+  /// alone.
   void write(const JointState& state, Index camera_entries, MapSnapshot& out);
 
  private:

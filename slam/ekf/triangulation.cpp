@@ -14,7 +14,7 @@ namespace {
 constexpr double kParallelBelowSine = 1e-3;
 constexpr double kRelativePivot = 1e-12;
 
-/// What the terms of one quality test share.
+/// Values shared by the terms of one quality test.
 struct LinearisedIntersection {
   Sighting i, j;
   Intersection mean;
@@ -34,7 +34,7 @@ Sighting displaced(const Sighting& sighting, const Eigen::Vector3d& pose_error, 
           sighting.azimuth_rad + azimuth_error_rad};
 }
 
-/// ln w_k - ln v_k of one sample (SPEC I.9, "term_k").
+/// ln w_k - ln v_k of one sample (mathematics I.9, "term_k").
 double entropy_term(const LinearisedIntersection& at, const Vector8d& standard_normal) {
   const Eigen::Matrix<double, 6, 1> pose_error = at.pose_factor * standard_normal.head<6>();
   const Eigen::Vector2d azimuth_error = at.sigma_rad * standard_normal.tail<2>();

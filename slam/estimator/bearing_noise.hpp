@@ -1,5 +1,5 @@
 #pragma once
-// What the rig says about the noise of a bearing. Thread contract: reentrant.
+// The noise of one bearing. Thread contract: reentrant.
 
 #include <cmath>
 
@@ -8,7 +8,7 @@
 
 namespace azimuth {
 
-/// The standard deviation a bearing claims, or the rig's.
+/// The standard deviation that the bearing carries, or the rig's if it carries none.
 inline double sigma_rad(const Bearing& bearing, const CameraRig& rig) {
   return std::isnan(bearing.sigma_rad) ? rig.sigma_bearing_rad : bearing.sigma_rad;
 }

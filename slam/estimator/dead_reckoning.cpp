@@ -6,8 +6,8 @@
 namespace azimuth {
 namespace {
 
-constexpr double kExplainedChi2 = 16.27;            // 99.9 % of three dimensions
-constexpr double kSmallest = 1e-6;                  // metres and radians: rounding
+constexpr double kExplainedChi2 = 16.27;            // 99.9 % quantile, three degrees of freedom
+constexpr double kSmallest = 1e-6;                  // absorbs rounding [m, rad]
 constexpr double kVague_m = 1.0, kVague_rad = 0.3;  // standard deviations
 
 }  // namespace
@@ -30,7 +30,8 @@ void DeadReckoning::add(const Motion& motion, const PoseBelief& now, Health heal
   if (health == Health::lost || !explains(now)) start_.reset();
 }
 
-/// Whether the robot is where the motion would put it. The belief has seen more, so it is the better known of the two.
+/// Whether the robot is where the motion would put it. `now` includes all bearings since the start, so the uncertainty
+/// of `now` is neglected.
 bool DeadReckoning::explains(const PoseBelief& now) const {
   const PoseBelief predicted = moved(*start_, motion_);
   Eigen::Vector3d apart = now.T_map_body.vector() - predicted.T_map_body.vector();

@@ -7,24 +7,26 @@
 
 namespace azimuth {
 
-/// Whether a search would find the robot as soon: after `motion`, and a gap in it of these standard deviations.
+/// Whether the pose after `motion`, plus a gap in the odometry with these standard deviations, is so uncertain that a
+/// search on the map would find the robot just as soon.
 bool is_vague(const Motion& motion, double sigma_gap_m = 0.0, double sigma_gap_rad = 0.0);
 
-/// What odometry alone says of the way since a map was saved, as long as it can be believed: a robot that was lost or
-/// carried, or whose wheels slipped, is not where it says.
+/// The motion since a map was saved, by odometry alone, as long as odometry can be trusted. It cannot when the robot is
+/// lost, was carried, or its wheels slipped.
 ///
 /// Thread contract: thread-bound; never allocates.
 class DeadReckoning {
  public:
-  /// From a map saved at `map`, with the robot at `pose`.
+  /// Starts from a map saved at the instant `map`, with the robot at `pose`.
   void begin(Stamp map, const PoseBelief& pose);
   void end() { start_.reset(); }
-  /// The robot moved, and is believed to be at `now`.
+  /// The robot moved by `motion`, and the estimator believes it to be at `now`.
   void add(const Motion& motion, const PoseBelief& now, Health health);
 
-  /// The motion since then; nothing: it can no longer be believed, or is too vague to be of use.
+  /// The motion since begin(). Nothing when odometry cannot be trusted any more or the motion is too uncertain to be of
+  /// use.
   std::optional<Motion> motion() const;
-  Stamp map() const { return map_; }  ///< requires motion()
+  Stamp map() const { return map_; }  ///< The instant of the saved map; requires motion()
 
  private:
   bool explains(const PoseBelief& now) const;

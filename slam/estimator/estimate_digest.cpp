@@ -4,8 +4,8 @@
 
 namespace azimuth {
 
-/// Multiplications and shifts by which every bit of the word reaches every bit of the value (the finaliser of
-/// splitmix64); the value before enters, so order counts.
+/// The finaliser of splitmix64: every bit of the word influences every bit of the value. The old value enters too, so
+/// the order of words matters.
 void EstimateDigest::mix(std::uint64_t word) {
   std::uint64_t x = std::rotl(value_, 5) + word + 0x9e3779b97f4a7c15ULL;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;

@@ -6,20 +6,20 @@
 
 namespace azimuth {
 
-/// One number for a whole run: two runs have the same digest when every estimate was the same to the last bit (and,
-/// for all practical purposes, only then).
+/// A hash of a whole run. Two runs have the same digest when all their estimates are the same to the last bit and, for
+/// all practical purposes, only then.
 ///
-/// Chained over stamp, pose, covariance and landmarks of every step. Predictions between the steps are left out, since
-/// how many there are depends on when samples arrive.
+/// The hash is chained over stamp, pose, covariance and landmarks of every step. Predictions between steps are left
+/// out, since their number depends on when samples arrive.
 ///
 /// Thread contract: thread-bound. add() does not allocate.
 class EstimateDigest {
  public:
-  /// Takes the estimate in, unless it is only predicted.
+  /// Adds the estimate to the digest, unless it is only predicted.
   void add(const Estimate& estimate);
 
   std::uint64_t value() const { return value_; }
-  std::uint64_t estimates() const { return estimates_; }  ///< taken in so far
+  std::uint64_t estimates() const { return estimates_; }  ///< Number of estimates added so far
 
  private:
   void mix(std::uint64_t word);
@@ -29,7 +29,7 @@ class EstimateDigest {
   std::uint64_t estimates_ = 0;
 };
 
-/// 16 hexadecimal digits.
+/// The digest as 16 hexadecimal digits.
 std::string digest_text(std::uint64_t digest);
 
 }  // namespace azimuth

@@ -1,5 +1,5 @@
 #pragma once
-// The interface every estimator has: a filter today, a smoother tomorrow. Nothing outside may assume which.
+// The interface of every estimator, filter or smoother. Callers must not assume which one they use.
 
 #include <optional>
 #include <vector>
@@ -15,57 +15,59 @@
 
 namespace azimuth {
 
-/// Turns motion and bearings into poses and a map.
+/// Computes poses and a map from motion and bearings.
 ///
-/// Thread contract: thread-bound (one thread at a time may use one object). No call allocates once the map has
-/// stopped growing. Same calls, same bits.
+/// Thread contract: thread-bound (one thread at a time may use one object). No call allocates once the map has stopped
+/// growing. The same calls give the same results to the last bit.
 class Estimator {
  public:
   virtual ~Estimator() = default;
 
-  /// The odometry is about to begin, and says whether it goes on from where the map was saved that the estimator starts
-  /// from: then predict() brings all the motion since. Called once before anything else. True: the pose goes on from
-  /// there; never for one that did not ask (MapStart::asks_odometry).
+  /// Called once, before anything else, when odometry starts. `goes_on`: the odometer kept counting since the saved map
+  /// that the estimator starts from was written, so that predict() will bring all the motion since then. Returns true
+  /// when the estimator keeps the saved pose because of that; never true unless MapStart::asks_odometry was set.
   virtual bool odometry_begins(bool /*goes_on*/) { return false; }
 
-  /// The robot moved: advance to the instant at the end of `motion`.
+  /// The robot moved: advances to the instant at the end of `motion`.
   virtual void predict(const Motion& motion) = 0;
 
-  /// Uses the bearings of the instant that predict() advanced to.
+  /// Uses the bearings of the instant that the last predict() advanced to.
   virtual void update(const BearingSet& observations) = 0;
 
-  /// Writes pose, covariance, landmarks, health and association counts of the present instant into `out`,
-  /// reusing its storage. Leaves stamps, sequence numbers and input counts to the caller.
+  /// Writes pose, covariance, landmarks, health and association counts of the present instant into `out`, reusing its
+  /// storage. Leaves stamps, sequence numbers and input counts to the caller.
   virtual void estimate(Estimate& out) const = 0;
 
-  /// Likewise after a further `motion`, without advancing to it; landmarks are left alone.
+  /// Writes the same as estimate() would after a further `motion`, without advancing to it. Leaves landmarks alone.
   virtual void look_ahead(const Motion& motion, Estimate& out) const = 0;
 
-  /// Replaces what `out` holds by where mapped landmarks should be seen from the present pose, those too far away or
-  /// behind something included: for people to look at. An estimator that cannot tell leaves it empty.
+  /// Writes the directions in which mapped landmarks should be seen from the present pose into `out`, replacing its
+  /// contents. Landmarks that are too far away or occluded are included: the result is for display. An estimator that
+  /// cannot predict bearings leaves `out` empty.
   virtual void expect(std::vector<ExpectedBearing>& out) const { out.clear(); }
 
-  /// How the camera differs from its rig by now; nothing: it is exact, or nobody found out.
+  /// How the camera differs from its rig, as estimated so far. Nothing when the camera counts as exact or is not
+  /// estimated.
   virtual std::optional<CameraErrors> camera_errors() const { return std::nullopt; }
 
-  /// What it has found out of the rig; an estimator that believes its rig has found nothing.
+  /// What the estimator has found out about the rig; empty for an estimator that does not estimate the rig.
   virtual RigFinding rig_finding() const { return {}; }
 
-  /// Writes what is known of the world into `out`, reusing its storage; its stamp is left to the caller. False, with
-  /// `out` unspecified, when there is nothing worth keeping (no landmark yet, or the robot is lost), and always for an
-  /// estimator that cannot tell.
+  /// Writes the map into `out`, reusing its storage; the caller sets its stamp. Returns false, with `out` unspecified,
+  /// when there is nothing worth saving (no landmark yet, or the robot is lost), and always for an estimator that
+  /// cannot save maps.
   virtual bool save_map(MapSnapshot& /*out*/) const { return false; }
 
-  /// Replaces what `out` holds by where the robot was at each update(), oldest first, as it is known by now. False,
-  /// with `out` unspecified, for an estimator that decides at once and never again.
+  /// Writes the robot's pose at each update() into `out`, oldest first, as it is known now, replacing its contents.
+  /// Returns false, with `out` unspecified, for an estimator that never revises past poses.
   virtual bool write_past(std::vector<PastPose>& /*out*/) const { return false; }
 
-  /// Likewise the path, likeliest now, at as few instants as tell it, and without covariances: quickly done. False,
-  /// with `out` unspecified, where write_past() says so.
+  /// Writes the most likely path into `out`, at as few instants as describe it and without covariances; this is fast.
+  /// Returns false, with `out` unspecified, where write_past() does.
   virtual bool write_path(std::vector<PathPose>& /*out*/) const { return false; }
 
-  /// Nothing more will come: path and map are solved until nothing changes, however long that takes, and what is asked
-  /// from then on is told by that. An estimator that decides at once and never again has nothing to add.
+  /// No more samples will come. The estimator solves path and map until they converge, however long that takes; later
+  /// calls return that solution. An estimator that never revises past poses does nothing.
   virtual void conclude() {}
 };
 

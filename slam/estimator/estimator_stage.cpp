@@ -10,7 +10,8 @@
 namespace azimuth {
 namespace {
 
-/// In one and the same odometry, and not so much later that nobody knows how the robot went meanwhile.
+/// Whether the first reading continues the odometry of the saved map, soon enough for the motion in between to be
+/// known.
 bool follows(const OdometryReading& first, const OdometrySince& since) {
   const OdometryReading& kept = since.reading;
   return first.origin == kept.origin && first.stamp > kept.stamp &&
@@ -43,7 +44,8 @@ bool EstimatorStage::add(const OdometryReading& reading) {
   return true;
 }
 
-/// A restarted daemon's odometer may have counted on: then nothing of the way is lost, and the robot is where it says.
+/// After a restart of the daemon the odometer may have kept counting: then the motion from the saved map to the first
+/// reading is known, and so is the pose.
 void EstimatorStage::begin(const OdometryReading& first) {
   begun_ = true;
   const bool goes_on = estimator_->odometry_begins(since_ && follows(first, *since_));
@@ -61,7 +63,7 @@ void EstimatorStage::add(BearingSet& set) {
   intake_.keep_usable(set);
   if (azimuths_clockwise_)
     for (Bearing& bearing : set.bearings) bearing.azimuth_rad = wrap(-bearing.azimuth_rad);
-  if (waiting_.full()) refuse_first();  // odometry has been silent for long: the oldest set will never be used
+  if (waiting_.full()) refuse_first();  // no odometry for a long time: the oldest set will never be used
   waiting_.add(set);
 }
 
@@ -83,13 +85,13 @@ bool EstimatorStage::advance(Estimate& out) {
   return false;
 }
 
-/// Whether the odometry pose at `stamp` can be interpolated: from the samples' stamps alone, so that it does not matter
-/// when they arrived.
+/// Whether the odometry pose at `stamp` can be interpolated. Only the samples' stamps decide, not the times at which
+/// they arrived.
 EstimatorStage::Readiness EstimatorStage::readiness(Stamp stamp) const {
-  // With the newest set came every reading stamped before it, which is valid earlier by the lead.
+  // All readings stamped before the newest set came before it; a reading is valid earlier than its stamp by the lead.
   const bool limit_passed = finished_ || intake_.newest_set() - lead() > stamp + wait_limit_;
   if (track_.empty()) return limit_passed ? Readiness::never : Readiness::wait;
-  // Where a robot was before its first reading nobody knows: one that is driving was somewhere else.
+  // Before the first reading the robot's pose is unknown, since the robot may have been driving.
   if (stamp < track_.oldest()) return Readiness::never;
   if (const auto next = track_.first_from(stamp)) {
     const bool is_known = *next <= stamp + wait_limit_ && !track_.is_blind_at(stamp, wait_limit_);
@@ -99,7 +101,7 @@ EstimatorStage::Readiness EstimatorStage::readiness(Stamp stamp) const {
   return Readiness::never;
 }
 
-/// Of readings over the instants they are valid for.
+/// By how much stamps of readings are later than the instants that the readings are valid for.
 Duration EstimatorStage::lead() const {
   const Duration lag = track_.empty() ? clock_.lag_at_first() : track_.newest() - track_.newest_raw().stamp;
   return std::max(Duration{0}, -lag);

@@ -16,72 +16,75 @@
 namespace azimuth {
 
 struct StageSettings {
-  double wait_for_odometry_s = 0.5;  ///< a bearing set whose odometry is missing for longer than this is refused
+  double wait_for_odometry_s = 0.5;  ///< A bearing set whose odometry is missing for longer than this is refused
 };
 
-/// Puts samples into the order of their stamps and steps the estimator: the estimator thread of the daemon and the
-/// loop of a replay run this very object.
+/// Puts samples into the order of their stamps and steps the estimator. The estimator thread of the daemon and the loop
+/// of a replay both run this class.
 ///
-/// A bearing set waits until odometry has reached its stamp; the odometry pose of its instant is interpolated, but not
-/// across an outage that the odometer says it cannot vouch for: such a set is refused. The
-/// steps depend on the samples that were taken and their stamps alone, never on when they arrived: a reading that comes
-/// after a set which waited for it has been given up is refused. What was taken, sorted by stamp, gives the same steps
-/// again.
+/// A bearing set waits until odometry has reached its stamp. The odometry pose at its instant is interpolated, but not
+/// across an outage that the odometer cannot vouch for: such a set is refused. The steps depend only on the samples
+/// that were accepted and on their stamps, never on when the samples arrived: a reading that arrives after a set gave
+/// up waiting for it is refused. The accepted samples, sorted by stamp, therefore give the same steps again.
 ///
-/// A name that occurs more than once in one image is believed of none of its bearings, whichever estimator there is;
-/// they are counted among those rejected.
+/// When a name occurs more than once in one image, the name is dropped from these bearings (see
+/// SampleIntake::doubt_repeated_names), whatever the estimator. They are counted as rejected.
 ///
 /// Thread contract: thread-bound. add() and advance() do not allocate in the steady state.
 class EstimatorStage {
  public:
-  /// With `since` the estimator starts from the map that it names, and goes on from there when the first reading is of
-  /// the same origin.
+  /// With `since` the estimator starts from the saved map that `since` names, and keeps the pose from there if the
+  /// first reading comes from the same odometer origin.
   EstimatorStage(std::unique_ptr<Estimator> estimator, const Rig& rig, const StageSettings& settings,
                  const std::optional<OdometrySince>& since = {});
 
-  /// False: refused and counted, because it is not finite, not in order, or too late.
+  /// Returns false when the reading is refused and counted: it is not finite, out of order, or too late.
   bool add(const OdometryReading& reading);
-  /// Takes the bearings by swapping storage: `set` holds recycled, empty storage afterwards.
+  /// Takes the bearings by swapping storage: afterwards `set` holds recycled, empty storage.
   void add(BearingSet& set);
 
-  /// Makes the next step if one is due and writes its estimate; false when nothing is due. Call until false.
+  /// Makes the next step if one is due and writes its estimate. Returns false when no step is due. Call until false.
   bool advance(Estimate& out);
 
-  /// Called on every step between prediction and update, with what is going to be used: for whoever draws what was
-  /// expected beside what was seen.
+  /// Called in every step between prediction and update, with the set that is about to be used: for drawing expected
+  /// bearings beside detected ones.
   using BeforeUpdate = std::function<void(const BearingSet& set, const Estimator& estimator)>;
   void before_update(BeforeUpdate call) { before_update_ = std::move(call); }
 
-  /// The pose at the newest odometry reading, without advancing: `out.predicted` is set and landmarks are left empty.
-  /// False when there is no reading since the last step or the last call.
+  /// Writes the pose at the newest odometry reading, without advancing. `out.predicted` is set and landmarks are left
+  /// empty. Returns false when no reading came since the last step or the last call.
   bool look_ahead(Estimate& out);
 
-  /// No further samples will come: sets that still wait are decided by the readings at hand. Call advance() until
-  /// false afterwards.
+  /// No more samples will come: sets that still wait are decided by the readings at hand. Call advance() until false
+  /// afterwards.
   void finish();
 
-  /// What keeps the samples from being of use, so far. While no landmark is mapped, it is the reason given for that.
+  /// The judgement of the samples so far. While no landmark is mapped, the trouble it finds becomes the estimate's
+  /// reason.
   const SampleWatch& samples() const { return samples_; }
 
-  /// See Estimator::save_map(); stamped with the last step.
+  /// See Estimator::save_map(). The map is stamped with the last step.
   bool save_map(MapSnapshot& out) const;
 
-  /// Whether the first reading goes on from `since` of the start; nothing: none has come, or there was none to go on
-  /// from.
+  /// Whether the first reading continues the odometry that the constructor got as `since`. Nothing while no reading has
+  /// come, or when `since` was empty.
   std::optional<bool> odometry_goes_on() const { return goes_on_; }
 
-  /// The map just written by save_map() may be what the next start begins from; until map_is_kept() the one before is.
+  /// The map just written by save_map() is being stored. Until map_is_kept() is called, the next start would use the
+  /// map before it.
   void map_is_made();
-  /// The map made last is the one that the next start will begin from.
+  /// The map announced by map_is_made() is stored: the next start will use it.
   void map_is_kept();
-  /// Whether a reading has come: until then what was known at the start is all that is.
+  /// Whether a reading has come. Until then the estimator knows only what it knew at the start.
   bool has_odometry() const { return begun_; }
-  /// The odometry since the map that is kept up to the newest reading. False: it does not tell where the robot is.
+  /// Writes the odometry from the stored map up to the newest reading. Returns false when odometry does not tell where
+  /// the robot is.
   bool since_map(OdometrySince& out) const { return since(reckoning_, out); }
-  /// Likewise since the one that was made after it.
+  /// Writes the odometry from the map announced by map_is_made() up to the newest reading. Returns false like
+  /// since_map().
   bool since_made_map(OdometrySince& out) const { return since(reckoning_made_, out); }
 
-  /// After finish(): see Estimator::conclude().
+  /// To be called after finish(); see Estimator::conclude().
   void conclude() { estimator_->conclude(); }
 
   const Estimator& estimator() const { return *estimator_; }
@@ -107,10 +110,10 @@ class EstimatorStage {
   OdometryRig odometry_rig_;
   OdometryTrack track_;
   SampleWatch samples_;
-  std::optional<OdometrySince> since_;  // of the start
+  std::optional<OdometrySince> since_;  // odometry since the saved map, as given at the start
   std::optional<bool> goes_on_;
   DeadReckoning reckoning_, reckoning_made_;
-  PoseBelief last_belief_{};  // of the last step
+  PoseBelief last_belief_{};  // belief after the last step
   SampleIntake intake_;
   WaitingSets waiting_;
   std::optional<Stamp> last_step_, last_look_;

@@ -3,12 +3,12 @@
 
 namespace azimuth {
 
-/// Counts images of no use in a row. Images that stand still while the robot does are as they should be.
+/// Counts consecutive useless images. A frozen image does not count while the robot stands still.
 ///
 /// Thread contract: thread-bound.
 class ImageTroubles {
  public:
-  /// An image, seen after `path_m` of driving.
+  /// Adds an image, taken after `path_m` of driving.
   void add(ImageTrouble trouble, double path_m) {
     const bool moved = path_m > last_image_m_;
     last_image_m_ = path_m;

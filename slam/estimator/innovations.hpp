@@ -7,13 +7,14 @@
 
 namespace azimuth {
 
-/// How far off the azimuths were that corrected a step, in standard deviations of what was expected of them.
+/// Innovations of the azimuths that corrected a step, normalised by their expected standard deviations.
 struct Innovations {
-  double nis = 0.0;  ///< normalised innovation squared, summed up: an honest estimator's grows by 1 with each of them
+  double nis = 0.0;  ///< Sum of the normalised squared innovations; a consistent estimator's grows by 1 per azimuth
   std::size_t compared = 0;
 };
 
-/// Of those of whose landmark anything was expected. `expected` in the order of their landmarks. Reentrant.
+/// Compares the accepted azimuths whose landmark has an expected bearing. `expected` must be sorted by landmark id.
+/// Reentrant.
 Innovations innovations_of(std::span<const ExpectedBearing> expected, std::span<const AcceptedSighting> accepted);
 
 }  // namespace azimuth

@@ -11,9 +11,10 @@ namespace {
 
 constexpr int kStreaksUntilLost = 3;
 constexpr int kContradictionsUntilDegraded = 3;
-constexpr int kTroubledImagesUntilDegraded = 3;  // a flash or a torn frame is nothing to report
-// Covariances count from where the map began, and so grow with how far it reaches: what is much in a room is little in
-// a park. A heading that is as uncertain as a degraded one may be, 0.2 rad, makes a fifth of that way.
+constexpr int kTroubledImagesUntilDegraded = 3;  // a flash or a torn frame is not worth a report
+// The pose covariance counts from the map's origin and so grows with the map's reach: a value that is large in a room
+// is small in a park. A heading uncertainty of 0.2 rad, the limit of `degraded`, moves the far end of the map by a
+// fifth of its reach.
 constexpr double kDegradedInRoom_m = 0.5, kDegradedShareOfReach = 0.01;
 constexpr double kLostInRoom_m = 5.0, kLostShareOfReach = 0.2, kLostAnywhere_m = 50.0;
 constexpr double kCertainOffset_sigmas = 3.0;
@@ -50,7 +51,7 @@ bool is_late(const Evidence& evidence, const HealthSettings& settings) {
 }
 
 std::string_view why_lost(const Evidence& evidence, const HealthSettings& settings) {
-  if (evidence.deaf_streaks >= kStreaksUntilLost) return "bearings keep contradicting the map";
+  if (evidence.inflations >= kStreaksUntilLost) return "bearings keep contradicting the map";
   if (is_too_uncertain(evidence.pose_covariance, settings, evidence.map_reach_m))
     return "the pose is too uncertain to be used";
   return "";
@@ -58,7 +59,7 @@ std::string_view why_lost(const Evidence& evidence, const HealthSettings& settin
 
 std::string_view why_degraded(const Evidence& evidence, const HealthSettings& settings) {
   if (evidence.troubled_images >= kTroubledImagesUntilDegraded) return to_string(evidence.trouble);
-  if (evidence.deaf_streaks > 0 || evidence.deaf_sightings >= kContradictionsUntilDegraded)
+  if (evidence.inflations > 0 || evidence.contradictions >= kContradictionsUntilDegraded)
     return "bearings contradict the map";
   if (evidence.unrecognised_m > settings.degraded_after_m) return "no landmark recognised for long";
   const Spread sigma = spread(evidence.pose_covariance);
@@ -75,7 +76,7 @@ std::string_view why_degraded(const Evidence& evidence, const HealthSettings& se
 
 }  // namespace
 
-/// Of a tilt nothing but its size counts, and that by its worst direction.
+/// Judges the magnitude of the tilt, against the larger of the standard deviations of roll and pitch.
 bool is_tilted(const std::optional<CameraErrors>& camera, const HealthSettings& settings) {
   if (!camera || settings.degraded_tilt_rad <= 0.0) return false;
   const double tilt_rad = camera->mean.tail<2>().norm();
@@ -83,7 +84,7 @@ bool is_tilted(const std::optional<CameraErrors>& camera, const HealthSettings& 
   return tilt_rad > settings.degraded_tilt_rad && tilt_rad > kCertainOffset_sigmas * sigma_rad;
 }
 
-/// What is no number is no certainty either.
+/// A covariance that is not finite counts as too uncertain.
 bool is_too_uncertain(const Eigen::Matrix3d& pose_covariance, const HealthSettings& settings, double map_reach_m) {
   const Spread sigma = spread(pose_covariance);
   const bool is_certain =

@@ -16,7 +16,7 @@ std::optional<CameraModel> camera_model(const CameraRig& rig) {
   return camera_of(rig, problem);
 }
 
-/// The axes of the plane that touches the sphere there, as TangentDirection has them.
+/// The axes of the plane tangent to the unit sphere at `at`, as TangentDirection defines them.
 Eigen::Matrix<double, 2, 3> across_and_along(const Direction& at) {
   const double cos = std::cos(at.azimuth_rad), sin = std::sin(at.azimuth_rad);
   const double up = std::sin(at.elevation_rad);
@@ -27,7 +27,7 @@ Eigen::Matrix<double, 2, 3> across_and_along(const Direction& at) {
 
 LampDirections::LampDirections(const Rig& rig) : rig_(rig.camera), camera_(camera_model(rig.camera)) {}
 
-/// Noise may put a lamp just outside of the image: then it is that of the rim.
+/// Noise may move a lamp just outside of the image; it then gets the covariance at the rim.
 Eigen::Matrix2d LampDirections::covariance(const Bearing& bearing) const {
   const double azimuth_rad = bearing.sigma_rad, elevation_rad = bearing.sigma_elevation_rad;
   if (std::isfinite(azimuth_rad) && std::isfinite(elevation_rad))
@@ -49,8 +49,8 @@ CameraModel LampDirections::leaning(const Eigen::Vector4d& errors) const {
           {camera_->tilt().roll_rad + errors(2), camera_->tilt().pitch_rad + errors(3)}};
 }
 
-/// The axis at e sees the pixel q as it would see q - e: with J = d(azimuth, elevation) / dq the direction moves by
-/// (across, along) = (-sin(zenith) J_azimuth, J_elevation) de.
+/// A camera whose centre is off by e sees pixel q in the direction of q - e. With J = d(azimuth, elevation) / dq the
+/// direction moves by (across, along) = (-sin(zenith) J_azimuth, J_elevation) de.
 LampSeen LampDirections::seen(const Bearing& bearing, const Eigen::Vector4d& errors) const {
   Direction direction{bearing.azimuth_rad, bearing.elevation_rad};
   Eigen::Matrix2d by_pixel = Eigen::Matrix2d::Zero(), by_tilt = Eigen::Matrix2d::Zero();

@@ -9,11 +9,11 @@
 
 namespace azimuth {
 
-// Where the rig does not say.
-inline constexpr double kUnknownHeight_m = 0.0;  ///< the map's heights are then above the camera
-inline constexpr double kUsualDetection = 0.85;  ///< probability that a lamp in view is detected
+// Defaults for values that the rig does not give.
+inline constexpr double kUnknownHeight_m = 0.0;  ///< Heights in the map then count from the camera
+inline constexpr double kUsualDetection = 0.85;  ///< Probability that a lamp in view is detected
 
-/// What the rig knows of bearings that carry an elevation.
+/// Converts bearings with elevations to directions in the robot's frame, using the rig's camera.
 ///
 /// Thread contract: reentrant.
 class LampDirections {
@@ -22,15 +22,15 @@ class LampDirections {
 
   const std::optional<CameraModel>& camera() const { return camera_; }
 
-  /// Of (azimuth, elevation) [rad^2]: what the bearing claims or else the noise of a pixel through the camera's model,
-  /// which knows that an azimuth near the zenith says little.
+  /// Covariance of (azimuth, elevation) [rad^2]: the bearing's own if it carries one, else the pixel noise propagated
+  /// through the camera's model. The model accounts for the poorly known azimuth near the zenith.
   Eigen::Matrix2d covariance(const Bearing& bearing) const;
 
-  /// In the robot's frame, as a camera sees it that is off by `errors` (CameraErrors::mean, the centre's along u and
-  /// v). Without a camera model, and outside of its image, errors change nothing.
+  /// The direction in the robot's frame, corrected for the camera errors `errors` (laid out as CameraErrors::mean, the
+  /// centre along u and v). Without a camera model, and outside of its image, errors change nothing.
   LampSeen seen(const Bearing& bearing, const Eigen::Vector4d& errors) const;
 
-  /// Where the camera shows what seen() would put at `direction`, in the camera's frame.
+  /// Inverse of seen(): the direction in the camera's frame whose correction is `direction`.
   Direction shown(const Direction& direction, const Eigen::Vector4d& errors) const;
 
  private:

@@ -7,8 +7,8 @@
 
 namespace azimuth {
 
-/// Of an estimate's landmarks, rising, into storage that is reused. For people landmarks are counted in this order, so
-/// that a map of two dozen has no numbers of three digits.
+/// Writes the ids of an estimate's landmarks, ascending, into `out`, reusing its storage. User output numbers landmarks
+/// by their place in this order, so that a map of two dozen landmarks has no three-digit numbers.
 inline void ids_of(const std::vector<LandmarkEstimate>& landmarks, std::vector<std::int64_t>& out) {
   out.clear();
   for (const LandmarkEstimate& landmark : landmarks) out.push_back(landmark.id);

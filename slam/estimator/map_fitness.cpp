@@ -25,7 +25,7 @@ StartPose start_pose(const MapStart& start) {
   pose.known = start.pose_known;
   const Eigen::Vector3d sigmas(start.sigma_position_m, start.sigma_position_m, start.sigma_heading_rad);
   pose.moved = sigmas.cwiseAbs2().asDiagonal();
-  if (start.reach_m > 0.0) pose.within = Whereabouts{start.map->T_map_body.position(), start.reach_m};
+  if (start.reach_m > 0.0) pose.within = PositionPrior{start.map->T_map_body.position(), start.reach_m};
   return pose;
 }
 

@@ -5,24 +5,25 @@
 
 namespace azimuth {
 
-/// What becomes of the map an estimator starts from.
+/// What happens to the map that an estimator starts from.
 enum class MapMode : std::uint8_t {
-  localise,  ///< it stays as it is to the last bit, and the robot only looks for itself in it
-  extend,    ///< it is corrected and grows
+  localise,  ///< The map stays the same to the last bit; only the robot is localised in it
+  extend,    ///< The map is corrected and grows
 };
 
 /// How an estimator starts from a saved map.
 struct MapStart {
-  const MapSnapshot* map = nullptr;  ///< borrowed for the construction only; null: from nothing
+  const MapSnapshot* map = nullptr;  ///< Borrowed for the construction only; null: no saved map
   MapMode mode = MapMode::extend;
-  /// The robot is where the map saw it last, give or take: else it can be anywhere, facing anywhere.
+  /// The robot is near the pose saved in the map. Otherwise it can be anywhere, with any heading.
   bool pose_known = false;
-  double sigma_position_m = 0.3;  ///< how far it may have been moved since, along each axis; while the pose is known
+  /// If `pose_known`: standard deviation of a displacement since the save, along each axis
+  double sigma_position_m = 0.3;
   double sigma_heading_rad = 0.2;
-  /// Whether the odometry goes on, and with it the pose, will be said by Estimator::odometry_begins(); until then
-  /// nothing is decided. If it does not, all is as it would be without this.
+  /// Whether odometry, and with it the pose, continues from the saved map is decided by Estimator::odometry_begins();
+  /// until then no start pose is set. If odometry does not continue, the start is the same as without this flag.
   bool asks_odometry = false;
-  /// While the pose is not known: how far from where the map saw the robot last it can be; 0: anywhere.
+  /// If the pose is not known: greatest distance from the saved pose; 0: anywhere.
   double reach_m = 0.0;
 };
 

@@ -10,17 +10,19 @@
 
 namespace azimuth {
 
-/// Estimators take bearings to be seen from the point whose pose they estimate. Where the camera does not stand over
-/// the point that odometry is of, that point is the camera's viewpoint, with the robot's heading: an odometer there
-/// would count what `T_viewpoint_body * motion * T_body_viewpoint` says, noise and all. This makes of such an estimator
-/// one of the robot: motions go in as the viewpoint's, poses come out as the body's. The map begins where the body does
-/// (docs/mathematics.md, VI.32; the papers have no such camera).
+/// Adapts an estimator to a camera that is not mounted over the point that odometry refers to.
+///
+/// Estimators take bearings to be seen from the point whose pose they estimate. Here that point is the camera's
+/// viewpoint, with the robot's heading. An odometer at the viewpoint would measure `T_viewpoint_body * motion *
+/// T_body_viewpoint`, noise included. The adapter converts motions to those of the viewpoint on the way in, and poses
+/// to those of the body on the way out. The map's origin is the first pose of the body (docs/mathematics.md, VI.32; the
+/// papers have no such camera).
 ///
 /// Thread contract: as Estimator.
 class MountedEstimator final : public Estimator {
  public:
-  /// `of_viewpoint` starts from a map, or not: then its first pose is the origin of its own frame, and here the body's
-  /// is.
+  /// `from_map`: `of_viewpoint` starts from a saved map. Otherwise the viewpoint's first pose is the origin of its own
+  /// frame, while the body's first pose is the origin of the published frame.
   MountedEstimator(std::unique_ptr<Estimator> of_viewpoint, const Eigen::Vector2d& p_body_viewpoint_m, bool from_map);
 
   bool odometry_begins(bool goes_on) override { return of_viewpoint_->odometry_begins(goes_on); }
@@ -41,21 +43,22 @@ class MountedEstimator final : public Estimator {
 
   std::unique_ptr<Estimator> of_viewpoint_;
   Eigen::Vector2d p_body_viewpoint_m_;
-  Eigen::Vector2d p_map_origin_m_;  ///< of the frame of the estimator of the viewpoint
+  Eigen::Vector2d p_map_origin_m_;  ///< Origin of the viewpoint estimator's map frame, in the published map frame
 };
 
-/// What a point at `p_body_m`, that does not turn against the body, does while the body makes `motion`.
+/// The motion of a point at `p_body_m`, with the body's heading, while the body makes `motion`.
 Motion point_motion(const Eigen::Vector2d& p_body_m, const Motion& motion);
 
-/// The pose of a point at `p_body_m`, with the body's heading, and d(that) / d(pose of the body).
+/// The pose of a point at `p_body_m`, with the body's heading, and the derivative of that pose by the body's pose.
 Pose2 point_pose(const Eigen::Vector2d& p_body_m, const Pose2& T_map_body);
 Eigen::Matrix3d point_pose_by_body(const Eigen::Vector2d& p_body_m, double heading_rad);
 
-/// In place of the robot's pose that of such a point, in a map and its covariance.
+/// Replaces the robot's pose in a map and in its covariance by the pose of a point at `p_body_m`, with the body's
+/// heading.
 void move_pose_to(const Eigen::Vector2d& p_body_m, MapSnapshot& map);
 
-/// What `make` makes for a robot whose camera is over the point that odometry is of, for one with this camera. `map` is
-/// what it starts from, or null, and lives for the call.
+/// An estimator for this camera. `make` makes an estimator for a camera over the point that odometry refers to. `map`
+/// is the saved map that the estimator starts from, or null; it is used during the call only.
 using MakeEstimator = std::function<std::unique_ptr<Estimator>(const MapSnapshot* map)>;
 std::unique_ptr<Estimator> mounted(const CameraRig& camera, const MapSnapshot* map, const MakeEstimator& make);
 

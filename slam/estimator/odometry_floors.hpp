@@ -5,8 +5,8 @@
 
 namespace azimuth {
 
-/// The motion with the rig's floors against overconfidence: a straight drive would else keep the heading exactly
-/// (SPEC I.3). Nothing is added while the robot stands. Thread contract: reentrant.
+/// The motion with the rig's minimum noise added, which prevents overconfidence: otherwise a straight drive would keep
+/// the heading exactly (mathematics I.3). No noise is added while the robot stands still. Thread contract: reentrant.
 inline Motion with_floors(Motion motion, const OdometryRig& rig) {
   if (!motion.moved()) return motion;
   const double distance_m2 = rig.floor_distance_m * rig.floor_distance_m;
@@ -15,10 +15,10 @@ inline Motion with_floors(Motion motion, const OdometryRig& rig) {
   return motion;
 }
 
-/// What the rig leaves unknown of the odometer's scales: of distance, of turn.
+/// Standard deviations of the odometer's scales that the rig leaves unknown: (distance, turn).
 inline Eigen::Vector2d sigma_scales(const OdometryRig& rig) { return {rig.sigma_scale_distance, rig.sigma_scale_turn}; }
 
-/// Likewise of all that a filter considers, as standard deviations.
+/// Standard deviations of all rig errors that a filter considers.
 inline Considered sigma_considered(const Rig& rig) {
   Considered sigma;
   sigma(considered::scale_distance) = rig.odometry.sigma_scale_distance;

@@ -9,23 +9,23 @@
 namespace azimuth {
 namespace {
 
-// A segment ends when it is this long, so that noise does not depend on how often the odometer reports.
+// Length at which a segment ends, so that noise does not depend on how often the odometer reports.
 constexpr double kSegment_m = 0.02;
 constexpr double kSegment_rad = 0.1;
 constexpr double kStands_rad = 0.02;
-// Positions come in steps of about a millimetre. The direction of a segment is uncertain by this over its length, and
-// turns before and after the drive that lie within that are not charged.
+// Resolution of odometer positions, about a millimetre. A segment's direction is uncertain by this value over its
+// length. Turns before and after a segment's drive that are smaller than this uncertainty are not charged.
 constexpr double kResolution_m = 2e-3;
-constexpr Duration kMoment = std::chrono::milliseconds(300);  // in which a robot's speed hardly changes
+constexpr Duration kMoment = std::chrono::milliseconds(300);  // time in which a robot's speed hardly changes
 
-/// Farther than a robot that stands.
+/// Whether the poses differ by more than the jitter of a robot that stands still.
 bool has_moved(const Pose2& from, const Pose2& to) {
   return (to.position() - from.position()).norm() >= kSegment_m ||
          std::abs(wrap(to.heading_rad - from.heading_rad)) >= kStands_rad;
 }
 
-/// The control whose variances a segment is charged: an arc of the same turn, with that part of the sideways direction
-/// which the odometer's resolution does not explain.
+/// The control whose variances a segment is charged: an arc with the same total turn. Of the sideways direction, only
+/// the part that the odometer's resolution does not explain is charged.
 Control charged_for(const Control& control) {
   const double half_turn_rad = 0.5 * wrap(control.first_turn_rad + control.second_turn_rad);
   const double sideways_rad = wrap(control.first_turn_rad - half_turn_rad);
@@ -35,7 +35,7 @@ Control charged_for(const Control& control) {
   return {control.distance_m, half_turn_rad + excess_rad, half_turn_rad - excess_rad};
 }
 
-/// The motion the robot really made when the odometer says `raw`.
+/// The true motion when the odometer reports `raw`.
 Control calibrated(const Control& raw, const OdometryRig& rig) {
   const double hand = rig.wheels_swapped ? -1.0 : 1.0;
   const double turn_rad = hand * (raw.first_turn_rad + raw.second_turn_rad);
@@ -45,13 +45,13 @@ Control calibrated(const Control& raw, const OdometryRig& rig) {
           hand * raw.second_turn_rad + 0.5 * correction_rad};
 }
 
-/// How fast the odometer goes from `a` to `b`, in the body's frame at `b`: (m/s, m/s, rad/s).
+/// The odometer's velocity from `a` to `b`, in the body's frame at `b`: (m/s, m/s, rad/s).
 template <class Node>
 Eigen::Vector3d velocity(const Node& a, const Node& b) {
   return (inverse(b.T_odom_body) * a.T_odom_body).vector() / -to_seconds(b.stamp - a.stamp);
 }
 
-/// A velocity of a frame that has turned by `heading_rad`.
+/// Rotates a velocity by `heading_rad`.
 Eigen::Vector3d turned(double heading_rad, const Eigen::Vector3d& velocity) {
   return {std::cos(heading_rad) * velocity.x() - std::sin(heading_rad) * velocity.y(),
           std::sin(heading_rad) * velocity.x() + std::cos(heading_rad) * velocity.y(), velocity.z()};
@@ -139,8 +139,8 @@ OdometryTrack::Step OdometryTrack::advance_to(Stamp stamp) {
     note_velocity(next);
   }
   close_segment(running_, end.T_odom_body);
-  // Taken earlier than stamped, an image shows neither the last of this step nor, at its start, the last of the one
-  // before.
+  // An image is taken earlier than stamped, by the lag. It therefore shows neither the last part of this step's motion
+  // nor, at the step's start, the last part of the motion before.
   const Eigen::Vector3d momentary = is_momentary_ ? velocity_ : Eigen::Vector3d::Zero();
   running_.motion.by_lag -= turned(running_.motion.T_start_end.heading_rad, momentary);
   running_.motion.velocity_at_end = velocity_;
@@ -169,14 +169,14 @@ void OdometryTrack::pass(const Node& node) {
   passed_reading_ = node.stamp;
 }
 
-/// By the way from where the track has passed to the reading after it. A mean over a long time says nothing of the
-/// instant at its end: what looks like the way of a lag would be odometry's noise.
+/// Computes the velocity from passed_ to the reading after it. A mean over a long time does not give the velocity at
+/// the end of this time: odometry noise would then look like the effect of a lag.
 void OdometryTrack::note_velocity(const Node& next) {
   velocity_ = velocity(*passed_, next);
   is_momentary_ = next.stamp - passed_reading_ <= kMoment;
 }
 
-/// Nothing is known about when within the gap the motion went wrong, so its variance is spread evenly over it.
+/// The error may lie anywhere within the gap, so its variance is spread evenly over the gap.
 void OdometryTrack::charge_gap(Running& running, const Node& node, double fraction) {
   running.motion.covariance.diagonal() +=
       fraction * Eigen::Vector3d(node.gap_variance_m2, node.gap_variance_m2, node.gap_variance_rad2);

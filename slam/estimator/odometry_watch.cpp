@@ -8,17 +8,17 @@
 namespace azimuth {
 namespace {
 
-/// Long enough for stamps that jitter, and for readings that come in twos and threes.
+/// Window length: long enough for jittering stamps and for readings that arrive in small bursts.
 constexpr Duration kWindow{500'000};
-/// More than any wheeled robot does: millimetres taken for metres, or degrees for radians, are far beyond.
+/// Limits that no wheeled robot reaches; millimetres taken for metres, or degrees for radians, exceed them by far.
 constexpr double kMaxSpeed_m_s = 20.0, kMaxTurn_rad_s = 10.0;
 constexpr int kWindows = 8, kFewWindows = 3;
-/// Of the past when a window is added: some forty windows count.
+/// Weight of the past when a window is added: an effective memory of about forty windows.
 constexpr double kKept = 0.975;
-/// Length of a mean of unit vectors: above the one they agree, below the other they do not.
+/// Length of a mean of unit vectors: above kAgree the directions agree, below kDisagree they do not.
 constexpr double kAgree = 0.9, kDisagree = 0.6;
 
-/// Not a jump or two: several windows, or most of the few there are.
+/// Whether several windows exceed the limit, or most of the windows if there are few; one jump is not enough.
 bool is_sure(const Recent& too_fast) { return too_fast.held() >= kWindows || too_fast.mostly(); }
 bool is_larger(const OdometryJump& a, const OdometryJump& b) {
   return a.step_m > b.step_m || (a.step_m == b.step_m && a.step_rad > b.step_rad);
@@ -71,7 +71,8 @@ void OdometryWatch::judge_direction(double direction_rad, double heading_rad) {
   off_heading_in_degrees_ = kKept * off_heading_in_degrees_ + doubled(direction_rad - degrees_to_rad(heading_rad));
 }
 
-/// A robot on wheels drives along its heading. One that drives in one direction only proves nothing.
+/// Whether motion follows the heading only if the heading is read as degrees. A drive in a single direction proves
+/// nothing.
 bool OdometryWatch::fits_degrees() const {
   if (moves_ < kWindows) return false;
   const auto agreement = [this](const std::complex<double>& sum) { return std::abs(sum) / directions_count_; };

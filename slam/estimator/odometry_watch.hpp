@@ -10,16 +10,16 @@
 
 namespace azimuth {
 
-/// What cannot be right about odometry of wheels.
+/// A fault found in wheel odometry.
 enum class OdometryDoubt : std::uint8_t {
   none,
-  too_quick,           ///< drives and turns faster than any robot: its stamps run too slowly
-  too_fast,            ///< drives so, but turns as it may
-  heading_in_degrees,  ///< turns so, or drives along its heading only if that is read as degrees
-  jumps                ///< steps that no wheels make, again and again
+  too_quick,           ///< Speed and turn rate are both impossible: the stamps run too slowly
+  too_fast,            ///< Speed is impossible, turn rate is not
+  heading_in_degrees,  ///< The turn rate is impossible, or motion follows only a heading read as degrees
+  jumps                ///< Repeated steps that wheels cannot make
 };
 
-/// Judges odometry, calibrated by the rig, in windows of half a second in which it moved.
+/// Judges odometry, calibrated by the rig, in windows of half a second in which the robot moved.
 ///
 /// Thread contract: thread-bound. Nothing allocates.
 class OdometryWatch {
@@ -28,7 +28,7 @@ class OdometryWatch {
 
   void add(const OdometryReading& reading);
 
-  /// `few`: no more will come, so that a few windows have to do.
+  /// The fault found so far. `few`: no more readings will come, so that a few windows must be enough.
   OdometryDoubt doubt(bool few) const;
   double fastest_m_s() const { return fastest_m_s_; }
   double fastest_rad_s() const { return fastest_rad_s_; }
@@ -38,8 +38,9 @@ class OdometryWatch {
  private:
   struct Window {
     OdometryReading start, last;
-    double heading_at_start_rad = 0.0, heading_rad = 0.0;  // unwrapped: degrees taken for radians go round and round
-    double turned_rad = 0.0;                               // to either side
+    // unwrapped, since degrees taken for radians exceed a full turn
+    double heading_at_start_rad = 0.0, heading_rad = 0.0;
+    double turned_rad = 0.0;  // sum of the turns' magnitudes
   };
   void judge(const Window& window);
   void judge_direction(double direction_rad, double heading_rad);
@@ -51,7 +52,7 @@ class OdometryWatch {
   std::optional<Window> window_;
   Recent driven_too_fast_, turned_too_fast_;
   double fastest_m_s_ = 0.0, fastest_rad_s_ = 0.0;
-  // Doubled angles as unit vectors, so that backwards is as good as forwards; recent ones count most.
+  // Sums of unit vectors at doubled angles, so that driving backwards counts as forwards; recent windows weigh most.
   std::complex<double> directions_, off_heading_, off_heading_in_degrees_;
   double directions_count_ = 0.0;
   int moves_ = 0;

@@ -6,14 +6,14 @@
 
 namespace azimuth {
 
-/// Where the robot was at an instant of the past, by all that was seen until now.
+/// The robot's pose at a past instant, by everything that was seen until now.
 struct PastPose {
   Stamp stamp{};
   Pose2 T_map_body;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< (x [m], y [m], heading [rad]) in the map frame
 };
 
-/// Likewise without how well that is known.
+/// A past pose without its covariance.
 struct PathPose {
   Stamp stamp{};
   Pose2 T_map_body;

@@ -4,8 +4,8 @@
 
 namespace azimuth {
 
-/* T_map_body = T_map_camera * e^-1, so that -R of the camera's place and -1 of its yaw come on top; and R v of the lag,
- * by which the body has gone on since. */
+/* T_map_body = T_map_camera * e^-1: the mounting adds -R for the camera's position and -1 for its yaw. The lag adds
+ * R v, since the body moved on after the image was taken. */
 JointState::ByConsidered PoseBelief::by_considered_of_body() const {
   JointState::ByConsidered D = by_considered;
   const Eigen::Matrix2d R = rotation(T_map_body.heading_rad);
@@ -31,7 +31,7 @@ PoseBelief belief_of(const JointState& state, const RigTold& told, const Eigen::
   return belief;
 }
 
-/// The motion's derivative by the lag begins with the velocity at its start.
+/// The result has no `velocity`: the motion's derivative by the lag includes the velocity at its start.
 PoseBelief moved(const PoseBelief& belief, const Motion& motion) {
   const MovedPose after = apply(belief.T_map_body, allowing_for(belief.believed, motion));
   return {.T_map_body = after.T_map_body,

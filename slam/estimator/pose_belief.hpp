@@ -11,38 +11,38 @@ namespace azimuth {
 
 // Thread contract: reentrant.
 
-/// What the filter believes: pose in the map frame, covariance of (x [m], y [m], heading [rad]).
+/// The filter's belief of the robot: pose in the map frame and covariance of (x [m], y [m], heading [rad]).
 struct PoseBelief {
-  Pose2 T_map_body;            ///< as the filter has it: see `believed`
-  Eigen::Matrix3d covariance;  ///< within the map, as it would be if the rig had no error
-  // Its errors, where the filter considers them.
-  /// What they have made of the pose by now: of the camera's, as of when images are taken (considered_rig.hpp).
+  Pose2 T_map_body;            ///< The filter's pose: the camera's errors in `believed` are not taken out
+  Eigen::Matrix3d covariance;  ///< Relative to the map, as if the rig had no error
+  // Errors of the rig, where the filter considers them.
+  /// d(pose) / d(errors), at the instant at which images are taken (considered_rig.hpp).
   JointState::ByConsidered by_considered = JointState::ByConsidered::Zero();
   Considered variances = Considered::Zero();
-  Considered believed = Considered::Zero();  ///< errors that the filter allows for
-  /// How the robot goes on from there until the instant that the pose is of, body frame (m/s, m/s, rad/s); zero: the
-  /// pose is of that instant already.
+  Considered believed = Considered::Zero();  ///< Errors that the filter allows for
+  /// Velocity of the robot from the instant of T_map_body to the instant of the estimate, body frame (m/s, m/s, rad/s).
+  /// Zero: T_map_body is at the instant of the estimate.
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
 
-  /// The pose of the body, at the instant that it is of.
+  /// The pose of the body at the instant of the estimate.
   Pose2 body() const;
-  /// d(pose of the body, at the instant that it is of) / d(errors).
+  /// d(body()) / d(errors).
   JointState::ByConsidered by_considered_of_body() const;
-  /// As seen from outside: the map may be too large, and the path with it.
+  /// Covariance in the world: includes the unknown scale of map and path.
   Eigen::Matrix3d total_covariance() const {
     const JointState::ByConsidered D = by_considered_of_body();
     return covariance + D * variances.asDiagonal() * D.transpose();
   }
 };
 
-/// Of the robot in a filter's state, which goes at `velocity`, by what innovations have told of the rig.
+/// The belief of the robot in a filter's state, moving at `velocity`; the errors' variances come from what innovations
+/// have told of the rig.
 PoseBelief belief_of(const JointState& state, const RigTold& told, const Eigen::Vector3d& velocity);
 
-/// What it will believe after `motion`, which begins at the instant of the pose, and nothing else:
-/// P' = G P G^T + R Q R^T, D' = G D + B.
+/// The belief predicted by `motion`, which starts at the instant of the pose: P' = G P G^T + R Q R^T, D' = G D + B.
 PoseBelief moved(const PoseBelief& belief, const Motion& motion);
 
-/// What an estimate says of everything but the map.
+/// Writes everything into an estimate except the map.
 void write_belief(const PoseBelief& belief, const AssociationCounts& counts, const Judgement& judgement, Estimate& out);
 
 }  // namespace azimuth

@@ -6,8 +6,8 @@
 
 namespace azimuth {
 
-/// When the robot was where a reading says, on the camera's clock: later by the rig's lag, which may grow from the
-/// first reading on.
+/// Converts the stamp of a reading to the instant, on the camera's clock, at which the robot was at the reading's pose:
+/// later by the rig's lag, which may grow from the first reading on.
 ///
 /// Thread contract: thread-bound. Nothing allocates.
 class ReadingClock {
@@ -15,7 +15,7 @@ class ReadingClock {
   explicit ReadingClock(const OdometryRig& rig) : lag_(duration_from_seconds(rig.lag_s)), drift_(rig.clock_drift) {}
 
   Duration lag_at_first() const { return lag_; }
-  /// The first call is of the first reading.
+  /// The first call must be for the first reading.
   Stamp instant_of(Stamp reading) {
     if (!first_) first_ = reading;
     const Stamp instant = reading + lag_;

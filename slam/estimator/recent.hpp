@@ -5,7 +5,7 @@
 
 namespace azimuth {
 
-/// Whether something held, of the last 64 times that it was asked. Thread contract: thread-bound.
+/// How often a condition held in its last 64 evaluations. Thread contract: thread-bound.
 class Recent {
  public:
   void add(bool held) {

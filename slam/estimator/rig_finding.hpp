@@ -5,14 +5,14 @@
 
 namespace azimuth {
 
-/// What an estimator has found out of the rig it was given, and goes by.
+/// What an estimator has found out about the rig it was given, and uses.
 struct RigFinding {
-  double bearing_noise = 1.0, odometry_noise = 1.0;  ///< standard deviations, times what the rig says
+  double bearing_noise = 1.0, odometry_noise = 1.0;  ///< Standard deviations relative to the rig's
 
   struct Value {
-    double found = 0.0, sigma = 0.0;  ///< as the rig's key would say it
+    double found = 0.0, sigma = 0.0;  ///< Value and standard deviation, in the units of the rig's key
   };
-  // Of those that the drive contradicts.
+  // Only the values that the drive contradicts are set.
   std::optional<Value> yaw_offset_rad = {}, scale_turn = {}, drift_rad_per_m = {}, lag_s = {}, camera_ahead_m = {},
                        camera_left_m = {}, roll_rad = {}, pitch_rad = {};
 
@@ -22,8 +22,8 @@ struct RigFinding {
   }
 };
 
-/// As the keys of `rig` would say it, what is found as errors: by how much more there is than the rig says, and of
-/// turns as a share.
+/// Converts `errors`, found relative to `rig`, to the values that the rig's keys would have. `scale_turn_error` is
+/// relative.
 RigFinding by_keys(const Rig& rig, RigFinding errors, double scale_turn_error);
 
 }  // namespace azimuth

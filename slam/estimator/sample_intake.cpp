@@ -22,8 +22,8 @@ bool is_of_one_thing(const Bearing& a, const Bearing& b, double sigma_bearing_ra
   return apart_rad * apart_rad <= kOfOneThing_sigmas * kOfOneThing_sigmas * (variance_rad2(a) + variance_rad2(b));
 }
 
-/// How many. Looks go by index, so with one of them a set of looks is of no use altogether; nor is one in which an
-/// angle can only be degrees.
+/// Returns the number of bearings removed. Descriptors refer to bearings by index, so one bad bearing makes a set with
+/// descriptors useless as a whole. So does an angle that can only be in degrees.
 std::size_t drop_not_usable(BearingSet& set) {
   const auto is_bad = [](const Bearing& bearing) { return !std::isfinite(bearing.azimuth_rad); };
   const auto bad = as_size(std::ranges::count_if(set.bearings, is_bad));

@@ -10,31 +10,32 @@
 
 namespace azimuth {
 
-/// Which samples are taken, by their own numbers and stamps, and what is counted of the others.
+/// Decides which samples are accepted, by their own numbers and stamps, and counts the others.
 ///
 /// Thread contract: thread-bound. Nothing allocates once sets have had their largest size.
 class SampleIntake {
  public:
   explicit SampleIntake(const ReadingClock& clock) : clock_(clock) { by_name_.reserve(kTypicalBearings); }
 
-  /// False: it is not finite, not in order, or later than something that was given up for want of it.
+  /// Returns false for a reading that is not finite, out of order, or too late for a set that was given up waiting.
   bool takes(const OdometryReading& reading);
-  /// False: it is not in order.
+  /// Returns false for a set that is out of order.
   bool takes(const BearingSet& set);
-  /// Takes out of a set what cannot be used.
+  /// Removes unusable bearings from a set.
   void keep_usable(BearingSet& set);
-  /// Of the bearings of one image that have the same name one at most is right, and the name does not tell which: all
-  /// of them lose it. Those that agree within their noise (`sigma_bearing_rad` where they say none) are of one thing
-  /// that was found several times, and the first keeps it. How many lost theirs is counted.
+  /// Drops names that occur more than once in an image. At most one of the bearings with the same name is right, and
+  /// the name does not tell which, so all of them lose it. Bearings that agree within their noise (`sigma_bearing_rad`
+  /// for those that carry none) are repeated detections of one landmark: the first of them keeps the name. Dropped
+  /// names are counted.
   void doubt_repeated_names(BearingSet& set, double sigma_bearing_rad);
-  /// Nothing waits any more for readings up to here.
+  /// No set waits any more for readings up to `stamp`.
   void gave_up_until(Stamp stamp) { given_up_until_ = stamp; }
   void refused_set() { ++counts_.bearings_without_odometry; }
 
-  /// Of the newest set; there must be one.
+  /// Stamp of the newest set; there must be one.
   Stamp newest_set() const { return *newest_set_; }
   const InputCounts& counts() const { return counts_; }
-  std::uint64_t names_doubted() const { return names_doubted_; }  ///< bearings that lost theirs so far
+  std::uint64_t names_doubted() const { return names_doubted_; }  ///< Bearings that lost their names so far
 
  private:
   ReadingClock clock_;
@@ -42,7 +43,7 @@ class SampleIntake {
   std::optional<Stamp> last_reading_, newest_set_, given_up_until_;
   std::uint64_t newest_sequence_ = 0;
   InputCounts counts_;
-  std::vector<std::size_t> by_name_;  // bearings of a set
+  std::vector<std::size_t> by_name_;  // indices of bearings of a set, sorted by name
   std::uint64_t names_doubted_ = 0;
 };
 
@@ -57,7 +58,7 @@ class WaitingSets {
   bool full() const { return count_ == kMost; }
   const BearingSet& first() const { return sets_[first_]; }
   BearingSet& first() { return sets_[first_]; }
-  /// Takes it by swapping storage: `set` is empty afterwards. There must be room.
+  /// Adds a set by swapping storage: `set` is empty afterwards. There must be room.
   void add(BearingSet& set);
   void drop_first();
 

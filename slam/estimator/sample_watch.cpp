@@ -8,11 +8,11 @@
 namespace azimuth {
 namespace {
 
-/// How many it takes to be sure while more are to come.
+/// Number of samples required for a verdict while more are to come.
 constexpr std::uint64_t kSets = 10, kBearings = 20, kAngles = 3;
-/// Of the bearings' time the tenth part at least is the odometry's as well.
+/// Bearings and odometry must overlap in at least one part in kLeastSpare of the bearings' time.
 constexpr int kLeastSpare = 10;
-constexpr double kScatters = 1.5;  // times what the rig says
+constexpr double kScatters = 1.5;  // times the rig's standard deviation
 
 SampleTrouble trouble_of(OdometryDoubt doubt) {
   switch (doubt) {
@@ -30,7 +30,7 @@ SampleTrouble trouble_of(OdometryDoubt doubt) {
   return SampleTrouble::none;
 }
 
-/// Of an image of usual size: looking through all of a thousand would take longer than they are worth.
+/// Looks at the first kMost bearings only: comparing all of a thousand would take too long.
 bool repeats_a_name(const BearingSet& set) {
   constexpr std::size_t kMost = 64;
   const std::size_t count = std::min(set.bearings.size(), kMost);
@@ -160,7 +160,7 @@ SampleTrouble SampleWatch::time_trouble() const {
   return too_rare ? SampleTrouble::odometry_too_rare : SampleTrouble::odometry_missing;
 }
 
-/// A value that is off makes all else seem noisy, too.
+/// A wrong value of the rig makes samples seem noisy too, so it is reported first.
 SampleTrouble SampleWatch::rig_trouble() const {
   if (finding_.rig.contradicts()) return SampleTrouble::rig_contradicted;
   if (finding_.rig.bearing_noise > kScatters) return SampleTrouble::bearings_scatter;

@@ -11,33 +11,32 @@
 
 namespace azimuth {
 
-/// What keeps samples from being of use, however good an estimator is: units, clocks, a rig that says otherwise. What
-/// hides what comes below stands first.
+/// Why samples are useless to any estimator: wrong units, clocks or rig. A trouble that hides later ones comes first.
 enum class SampleTrouble : std::uint8_t {
   none,
-  odometry_too_quick,           ///< drives and turns impossibly fast: stamps in another unit
-  odometry_too_fast,            ///< impossibly fast: millimetres
-  odometry_heading_in_degrees,  ///< turns impossibly fast, or drives along its heading only in degrees
-  odometry_jumps,               ///< again and again a step that no wheels make
-  bearings_in_degrees,          ///< angles beyond a full turn
-  no_odometry,                  ///< not one reading
-  one_reading,                  ///< but no motion without a second one
-  apart_in_time,                ///< of other times than the odometry, but for a tenth at most
-  odometry_too_rare,            ///< readings farther apart than may be interpolated
-  odometry_missing,             ///< for most sets, why ever
-  images_of_no_use,             ///< every one of them
-  nothing_seen,                 ///< not one bearing
-  no_identities,                ///< which the rig promises, so that nothing can be told apart
-  names_repeated,               ///< in most images: several in one
-  rig_contradicted,             ///< a value of the rig is not what the drive shows
-  bearings_scatter,             ///< far more than the rig says
-  odometry_scatters             ///< likewise
+  odometry_too_quick,           ///< Impossibly fast driving and turning: stamps in another unit
+  odometry_too_fast,            ///< Impossibly fast driving: millimetres taken for metres
+  odometry_heading_in_degrees,  ///< Impossibly fast turning, or motion that follows the heading only if read as degrees
+  odometry_jumps,               ///< Repeated steps that wheels cannot make
+  bearings_in_degrees,          ///< Angles beyond a full turn
+  no_odometry,                  ///< No reading at all
+  one_reading,                  ///< One reading only, hence no motion
+  apart_in_time,                ///< Bearings and odometry overlap in time by a tenth at most
+  odometry_too_rare,            ///< Readings farther apart than may be interpolated
+  odometry_missing,             ///< No odometry for most sets, for another reason
+  images_of_no_use,             ///< Every image is useless
+  nothing_seen,                 ///< No bearing at all
+  no_identities,                ///< Bearings lack the identities that the rig promises: landmarks cannot be told apart
+  names_repeated,               ///< A landmark occurs more than once in most images
+  rig_contradicted,             ///< A value of the rig differs from what the drive shows
+  bearings_scatter,             ///< Bearings are far noisier than the rig says
+  odometry_scatters             ///< Odometry is far noisier than the rig says
 };
 
-/// In a few words; empty for none. Static text.
+/// A short description; empty for `none`. Static text.
 std::string_view to_string(SampleTrouble trouble);
 
-/// From the first to the last stamp.
+/// First and last stamp of a series of samples, and their number.
 struct StampSpan {
   Stamp first{}, last{};
   std::uint64_t count = 0;
@@ -46,26 +45,26 @@ struct StampSpan {
   double seconds() const { return to_seconds(last - first); }
 };
 
-/// A trouble and the numbers that belong to it, for a sentence about it (settings/sample_sentence.hpp).
+/// A trouble and the numbers needed to describe it (settings/sample_sentence.hpp).
 struct SampleFinding {
   SampleTrouble trouble = SampleTrouble::none;
-  StampSpan odometry, sets;                 ///< that came in order
-  std::uint64_t bearings = 0;               ///< in those sets
-  std::uint64_t without_odometry = 0;       ///< sets that were refused for it
-  double wait_limit_s = 0.0;                ///< for a reading that belongs to a set
-  double fastest_m_s = 0.0;                 ///< odometry, calibrated
-  double fastest_rad_s = 0.0;               ///< likewise
-  std::uint64_t jumps = 0;                  ///< steps of the odometry that no wheels make
-  OdometryJump largest_jump;                ///< of those
-  double largest_angle_rad = 0.0;           ///< of a bearing
-  std::uint64_t repeating = 0;              ///< sets with a landmark more than once
-  ImageTrouble image = ImageTrouble::none;  ///< of the last set
-  double sigma_bearing_rad = 0.0;           ///< as the rig says
-  RigFinding rig;                           ///< by the estimator
+  StampSpan odometry, sets;                 ///< Samples that came in order
+  std::uint64_t bearings = 0;               ///< Number of bearings in those sets
+  std::uint64_t without_odometry = 0;       ///< Sets refused for lack of odometry
+  double wait_limit_s = 0.0;                ///< Wait limit for the odometry of a set
+  double fastest_m_s = 0.0;                 ///< Fastest speed of the calibrated odometry
+  double fastest_rad_s = 0.0;               ///< Fastest turn rate of the calibrated odometry
+  std::uint64_t jumps = 0;                  ///< Odometry steps that wheels cannot make
+  OdometryJump largest_jump;                ///< The largest of those steps
+  double largest_angle_rad = 0.0;           ///< Largest angle of a bearing that cannot be in radians
+  std::uint64_t repeating = 0;              ///< Sets with a landmark more than once
+  ImageTrouble image = ImageTrouble::none;  ///< Trouble of the last set
+  double sigma_bearing_rad = 0.0;           ///< The rig's standard deviation of a bearing
+  RigFinding rig;                           ///< What the estimator has found out about the rig
 };
 
-/// Judges whether samples can be what the rig says they are, as they come: for daemon and replay alike. It takes
-/// several to be sure; what came right again is no trouble any more.
+/// Judges, as samples arrive, whether they can be what the rig says they are; used by daemon and replay alike. A
+/// trouble is reported once several samples show it, and disappears when later samples are right.
 ///
 /// Thread contract: thread-bound. Nothing allocates.
 class SampleWatch {
@@ -74,18 +73,18 @@ class SampleWatch {
 
   void add(const OdometryReading& reading);
   void add(const BearingSet& set);
-  void used() { refused_.add(false); }  ///< a set, in a step
+  void used() { refused_.add(false); }  ///< A set was used in a step
   void refused() {
     refused_.add(true);
     ++finding_.without_odometry;
-  }                                                          ///< a set, for want of odometry
-  void found(const RigFinding& rig) { finding_.rig = rig; }  ///< by the estimator, so far
-  void finish() { finished_ = true; }                        ///< no more will come: what there is has to do
+  }                                                          ///< A set was refused for lack of odometry
+  void found(const RigFinding& rig) { finding_.rig = rig; }  ///< The estimator's present findings about the rig
+  void finish() { finished_ = true; }                        ///< No more samples will come: judge by those at hand
 
   SampleTrouble trouble() const;
-  /// What makes any pose wrong: samples in other units. none: nothing.
+  /// The trouble that makes every pose wrong: samples in other units. `none` if there is no such trouble.
   SampleTrouble impossible() const;
-  /// With the numbers so far.
+  /// The present trouble with the numbers so far.
   SampleFinding finding() const;
 
  private:
@@ -104,7 +103,7 @@ class SampleWatch {
   bool finished_ = false;
 };
 
-/// An angle that no radians come to: beyond a full turn, or an elevation beyond the vertical.
+/// Whether an angle cannot be in radians: an azimuth beyond a full turn, or an elevation beyond the vertical.
 bool is_beyond_radians(const Bearing& bearing);
 
 }  // namespace azimuth

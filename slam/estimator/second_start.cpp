@@ -7,32 +7,33 @@
 namespace azimuth {
 namespace {
 
-// A second filter that maps this many landmarks more for each of the first's takes bearings for those of others.
+// A second filter that maps more landmarks than this, relative to the first, associates bearings wrongly.
 constexpr double kMoreLandmarks = 1.1;
-// Each leaves a quarter to six tenths of the error that the one before it left.
-constexpr int kMostBeginnings = 4;
+// Each restart leaves a quarter to six tenths of the previous error.
+constexpr int kMostStarts = 4;
 
 double largest_sigma_px(const CentreOffset& centre) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(centre.covariance_px2, Eigen::EigenvaluesOnly);
   return std::sqrt(axes.eigenvalues().maxCoeff());
 }
 
-/// By how much the centre has, as it is if the tilt has not.
-double moved_px(const CameraErrors& found, const SecondBeginning& beginning) {
+/// The change of the centre, given the tilt at the start.
+double moved_px(const CameraErrors& found, const Restart& beginning) {
   const CentreOffset centre = found.centre_given(beginning.camera_errors.tail<2>());
   return (centre.mean_px - beginning.camera_errors.head<2>()).norm();
 }
 
-/// As far as linearising about either makes no difference.
+/// Whether the heights are so nearly equal that linearising about one or the other makes no difference.
 bool agree(const std::optional<UsualHeight>& a, const std::optional<UsualHeight>& b) {
   constexpr double kSame = 0.02;
   return !a || !b || std::abs(a->mean_m - b->mean_m) < kSame * a->mean_m;
 }
 
-/// Counts never go back: by how much `later` is short of `earlier`.
+/// Counts must never decrease: the amount by which `later` falls short of `earlier`.
 std::uint64_t shortfall(std::uint64_t earlier, std::uint64_t later) { return earlier > later ? earlier - later : 0; }
 
-/// Of the second filter, which saw again what the first one had seen. The landmarks of the first are all gone.
+/// The counts to add to those of the second filter, which processed the first filter's bearings again. All landmarks of
+/// the first filter count as deleted.
 AssociationCounts left_behind(const AssociationCounts& first, const AssociationCounts& second) {
   return {.accepted = shortfall(first.accepted, second.accepted),
           .rejected = shortfall(first.rejected, second.rejected),
@@ -82,15 +83,16 @@ void SecondStart::update(const BearingSet& bearings) {
     keep_no_more();
 }
 
-/// A first filter far from the truth may have been too sure of it; then so is a second one, but less far from it.
+/// Restarts up to kMostStarts - 1 times: a first filter far from the truth may have been overconfident. The second
+/// filter is then overconfident as well, but closer to the truth.
 void SecondStart::begin_again(const CameraErrors& camera) {
   const std::int64_t first_id = running_->next_id();
-  SecondBeginning beginning{.camera_errors = camera.mean,
-                            .sigma_centre_px = kBeginWider * begin_again_px_,
-                            .next_id = first_id,
-                            .height = running_->usual_height()};
-  std::unique_ptr<BeginsTwice> second = replayed(beginning);
-  for (int beginnings = 1; beginnings < kMostBeginnings; ++beginnings) {
+  Restart beginning{.camera_errors = camera.mean,
+                    .sigma_centre_px = kBeginWider * begin_again_px_,
+                    .next_id = first_id,
+                    .height = running_->usual_height()};
+  std::unique_ptr<RestartableEstimator> second = replayed(beginning);
+  for (int beginnings = 1; beginnings < kMostStarts; ++beginnings) {
     const std::optional<CameraErrors> found = second->camera_errors();
     const std::optional<UsualHeight> height = second->usual_height();
     if (!found || (moved_px(*found, beginning) < begin_again_px_ && agree(height, beginning.height))) break;
@@ -107,8 +109,8 @@ void SecondStart::begin_again(const CameraErrors& camera) {
   began_again_ = true;
 }
 
-std::unique_ptr<BeginsTwice> SecondStart::replayed(const SecondBeginning& beginning) const {
-  std::unique_ptr<BeginsTwice> filter = begin_(beginning);
+std::unique_ptr<RestartableEstimator> SecondStart::replayed(const Restart& beginning) const {
+  std::unique_ptr<RestartableEstimator> filter = begin_(beginning);
   for (const Sample& sample : samples_) {
     if (const auto* motion = std::get_if<Motion>(&sample))
       filter->predict(*motion);

@@ -8,12 +8,12 @@ namespace {
 
 constexpr double kParallel = 1e-12;  // sin^2 of the angle between rays
 
-/// Squared distance of the sighting from the direction of the point, in standard deviations.
+/// Squared deviation of the detection from the direction of the point, in standard deviations.
 double distance2(const Ray& ray, const Eigen::Vector3d& p_map) {
   return squared_distance(innovation(view(ray.from, p_map), ray.from, *ray.seen), ray.seen->covariance);
 }
 
-/// Summed over all rays; nothing when one of them is beyond the gate.
+/// Sum of distance2() over all rays; nullopt if one of them is beyond the gate.
 std::optional<double> agreed_distance2(std::span<const Ray> rays, const Eigen::Vector3d& p_map, double gate2) {
   double sum = 0.0;
   for (const Ray& ray : rays) {
@@ -57,7 +57,7 @@ void CrossPoints::observe(std::span<const Ray> rays, const CrossingRules& rules)
   drop_contradicted(current, gate2);
   with_current_ = 0;
   for (const Ray& earlier : rays.first(rays.size() - 1)) {
-    if (direction.dot(earlier.direction()) > wide_enough) continue;  // spares most of the work
+    if (direction.dot(earlier.direction()) > wide_enough) continue;  // Early exit that saves most of the work
     const std::optional<Crossing> met = crossing(earlier, current);
     if (!met || !is_plausible(*met, current.from.z_m, rules)) continue;
     const std::optional<double> sum = agreed_distance2(rays, met->p_map, gate2);

@@ -29,7 +29,7 @@ void ErrorCovariance::add_term(Index at, const Eigen::Matrix<double, 3, Size>& b
   term.by.leftCols<Size>() = by;
 }
 
-/// e_at <- sum of the terms, and with it all that the others have in common with e_at.
+/// e_at <- sum of the terms, including the covariances of e_at with all other entries.
 void ErrorCovariance::replace(Index at) {
   auto columns = columns_.topRows(size_);
   columns.setZero();
@@ -131,7 +131,7 @@ void ErrorCovariance::add(std::int64_t landmark, const Pose2& T_map_body, const 
   add(landmark, own);
 }
 
-/// The last one takes its place.
+/// The last entry moves to the place of the removed one.
 void ErrorCovariance::remove(std::size_t index) {
   size_ = entry_of(ids_.size());
   const Index at = entry_of(index), last = size_ - 3;

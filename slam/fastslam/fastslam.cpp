@@ -11,8 +11,9 @@
 namespace azimuth {
 namespace {
 
-constexpr double kMostCertainDetection = 0.95;  // a lamp missed must not end a particle
-constexpr double kNear_m = 1.0;                 // a particle may move so far until all landmarks are asked again
+constexpr double kMostCertainDetection = 0.95;  // A bound below 1, so that a missed lamp cannot make a weight zero
+// Distance that a particle may move before all its landmarks are tested for nearness again
+constexpr double kNear_m = 1.0;
 constexpr double kRounding_m = 1e-6, kRounding = 1e-9;
 
 }  // namespace
@@ -61,7 +62,8 @@ void FastSlam::update(std::span<const LampSighting> sightings, LampAssociator& a
 
 void FastSlam::begin(std::span<const LampSighting> sightings, std::size_t lights) {
   seen_ = sightings;
-  const Reflections reflections(lights + 1, camera_.max_zenith_rad);  // what is seen may be all, and is never none
+  // Plus one for the image's lamps: all lights may be reflections, and the count must not be 0
+  const Reflections reflections(lights + 1, camera_.max_zenith_rad);
   log_reflections_.clear();
   for (const LampSighting& seen : seen_) log_reflections_.push_back(reflections.log_density(seen));
   recognition_.begin(seen_);
@@ -79,8 +81,8 @@ const LampSighting& FastSlam::sighting(const SightingIndex& index) const {
   return kept_[as_size(index.step % Particles::kPathSteps) * kMostSightings + as_size(index.in_step)];
 }
 
-/// Algorithm 1 for one particle: where the motion leads (its mean: only the proposal is sampled), what is recognised
-/// from there, the pose (algorithm 3), landmarks, weight and candidates (algorithm 4).
+/// Algorithm 1 for one particle: the predicted pose (its mean, since only the proposal is sampled), the landmarks
+/// recognised from it, the pose (algorithm 3), and landmarks, weight and candidates (algorithm 4).
 void FastSlam::step(std::size_t k, LampAssociator& associator) {
   const MovedPose moved = apply(particles_[k].T_map_body, pending_);
   ParticleStep step{k, Viewpoint(moved.T_map_body, camera_.height_m), {}, Symmetric3::of(moved.noise)};
@@ -89,7 +91,7 @@ void FastSlam::step(std::size_t k, LampAssociator& associator) {
   note_recognised(k);
   weigh_evidence(step);
   propose(step);
-  if (is_key_) ask_which_are_near(step);  // before the sightings, which make near what they correct
+  if (is_key_) ask_which_are_near(step);  // Before learn(), which marks the landmarks that it corrects as near
   learn(step);
   if (is_key_ && !holds_map_ && k == best_) follow_pose();
   if (is_key_) miss_landmarks(step);
@@ -102,8 +104,8 @@ void FastSlam::note_recognised(std::size_t k) {
       lamps_of_sightings_[k * seen_.size() + l] = particles_.infos(k)[as_size(lamp->slot)].id;
 }
 
-/// Before anything is learnt from the image. Of a landmark that is no lamp yet only sightings count that are kept: from
-/// one place a reflection is as steady as a lamp.
+/// Runs before the image changes the map. For an unproven landmark only kept detections count, since a reflection seen
+/// from one place is as steady as a lamp.
 void FastSlam::weigh_evidence(const ParticleStep& step) {
   double& log_evidence = particles_[step.k].log_evidence;
   log_evidence = 0.0;
@@ -132,8 +134,8 @@ PoseProposal FastSlam::linear_proposal(const ParticleStep& step) const {
   return proposal;
 }
 
-/// Algorithm 3, and the part of the weight that comes with it. Without a landmark of type I the pose is drawn from the
-/// motion alone.
+/// Algorithm 3, and its part of the weight. Without a recognised landmark of type I the pose is drawn from the motion
+/// alone.
 void FastSlam::propose(ParticleStep& step) {
   Particle& particle = particles_[step.k];
   PoseProposal proposal = linear_proposal(step);
@@ -183,8 +185,8 @@ void FastSlam::learn(ParticleStep& step) {
   }
 }
 
-/// All landmarks, but only where the particle has gone far enough for others to have come near: with many of them, most
-/// of the time would go by until their places have come from memory.
+/// Tests all landmarks for nearness, but only after the particle has moved far enough for further landmarks to come
+/// near. With many landmarks, the time would otherwise be dominated by memory access.
 void FastSlam::ask_which_are_near(const ParticleStep& step) {
   const Eigen::Vector2d here{step.x_t.x_m, step.x_t.y_m};
   std::optional<Eigen::Vector2d>& asked_from_m = particles_[step.k].asked_from_m;
@@ -202,8 +204,8 @@ void FastSlam::ask_which_are_near(const ParticleStep& step) {
   }
 }
 
-/// Algorithm 4, lines 21 and 22. Near the image's rim nothing counts as missed. What has turned out to be no lamp goes
-/// as well. Of a landmark that is not near all that counts is as it was: what a sighting corrects is near from then on.
+/// Algorithm 4, lines 21 and 22. Landmarks near the image's rim do not count as missed. Refuted landmarks are deleted
+/// too. The state of a landmark that is not near cannot change here, since each corrected landmark is marked as near.
 void FastSlam::miss_landmarks(ParticleStep& step) {
   Particle& particle = particles_[step.k];
   particles_.nearby(step.k).for_each_from_last([&](std::size_t slot) {

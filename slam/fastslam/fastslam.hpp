@@ -1,5 +1,5 @@
 #pragma once
-// FastSLAM 2.0 over lamps (SPEC part II, algorithms 1 to 4): each particle is a path with a map of its own.
+// FastSLAM 2.0 with lamps (mathematics part II, algorithms 1 to 4): each particle is a path with a map of its own.
 
 #include <cstdint>
 #include <span>
@@ -18,51 +18,53 @@
 
 namespace azimuth {
 
-/// Thread contract: thread-bound. Nothing allocates once the storage for the sightings of one image has grown to the
-/// largest. Same seed and calls, same bits.
+/// Thread contract: thread-bound. Nothing allocates once the storage for the detections of one image has grown to the
+/// largest. The same seed and calls give the same bits.
 class FastSlam {
  public:
-  static constexpr std::size_t kMostSightings = 64;  ///< of one image; further ones are not used
+  static constexpr std::size_t kMostSightings = 64;  ///< Of one image; further detections are ignored
 
-  /// `sigma_scales`: what is unknown of the odometer's scales, of distance and of turn.
+  /// `sigma_scales`: standard deviations of the odometer's scales, of distance and of turn.
   FastSlam(const FastSlamSettings& settings, const LampCamera& camera,
            const Eigen::Vector2d& sigma_scales = Eigen::Vector2d::Zero());
 
-  /// The robot moved; the covariance of `motion` holds all there is.
+  /// Adds a motion of the robot. The covariance of `motion` must contain all its uncertainty.
   void predict(const Motion& motion);
-  /// `lights` is how many there were in the image, those included that are not among the sightings.
+  /// `lights` is the number of bright spots in the image, including those not among the detections.
   void update(std::span<const LampSighting> sightings, LampAssociator& associator, std::size_t lights = 0);
 
   // fastslam_saved_map.cpp
-  /// Begins with a map of points in space, no more than there is room for, and the pose in it.
+  /// Starts from a map of 3D points, at most as many as there is room for, and the pose in it.
   void restore(const MapSnapshot& map);
-  /// From now on the map stays as it is.
+  /// Freezes the map.
   void hold_map() { holds_map_ = true; }
-  /// Somewhere about where it is: the particles are drawn. `covariance` is in the body's frame.
+  /// Draws the particles about their current pose. `covariance` is in the body's frame.
   void disperse(const Eigen::Matrix3d& covariance);
-  /// The robot is somewhere else. `covariance` is in the body's frame.
+  /// Moves all particles to another pose. `covariance` is in the body's frame.
   void place(const Pose2& T_map_body, const Eigen::Matrix3d& covariance);
-  /// Pose, proven landmarks and their covariance; false when there is no such landmark. Leaves the rest as it is.
+  /// Writes the pose, the proven landmarks and their covariance; returns false if there is no proven landmark. Other
+  /// members of `out` stay unchanged.
   bool save(MapSnapshot& out) const;
 
   const LampCamera& camera() const { return camera_; }
   const Particles& particles() const { return particles_; }
-  std::size_t best() const { return best_; }  ///< the particle of the greatest weight
+  std::size_t best() const { return best_; }  ///< The particle with the greatest weight
   /// The best particle's pose at the present instant.
   Pose2 pose() const { return particles_[best_].T_map_body * pending_.T_start_end; }
-  /// How far off its pose and map are, as of the last update. The particles' spread would say little: ten of them soon
-  /// descend from one.
+  /// The error covariance of the best particle's pose and map at the last update. The spread of the particles would
+  /// underestimate it, since they soon descend from one particle.
   const ErrorCovariance& errors() const { return errors_; }
-  const Motion& pending() const { return pending_; }  ///< since the last update
+  const Motion& pending() const { return pending_; }  ///< Motion since the last update
 
-  /// Of the last update: the landmark (by id) that the best particle took each sighting for; kNoLamp: none.
+  /// For each detection of the last update: the id of the landmark with which the best particle associated it, or
+  /// kNoLamp.
   static constexpr std::int64_t kNoLamp = -1;
   std::span<const std::int64_t> lamps_of_sightings() const;
-  /// Landmarks of the best particle that are lamps beyond doubt, whatever reflections there are.
+  /// Number of the best particle's landmarks that are proven to be lamps and not reflections.
   std::size_t proven() const;
-  /// Whether the last image held more of them than chance would have it.
+  /// Whether the last image showed more of the proven landmarks than chance would.
   bool speaks_for_the_map() const { return particles_[best_].log_evidence > 0.0; }
-  /// Landmarks of the best particle, since the start.
+  /// Landmark counts of the best particle since the start.
   const MapCounts& counts() const { return particles_[best_].counts; }
 
  private:
@@ -103,31 +105,31 @@ class FastSlam {
   double log_miss_, log_detection_;
   RandomNumbers<Xoshiro> random_;
   Particles particles_;
-  ErrorCovariance errors_;  // of the best particle
+  ErrorCovariance errors_;  // Of the best particle
   bool holds_map_ = false;
   Motion pending_;
   double since_key_m_ = 0.0;
-  std::int64_t step_ = -1;  // of the newest sightings kept
-  bool is_key_ = true;      // the running step's sightings are kept and counted
+  std::int64_t step_ = -1;  // Number of the newest kept step
+  bool is_key_ = true;      // Whether the current step's detections are kept and counted
   std::int64_t sightings_so_far_ = 0;
   std::size_t best_ = 0;
 
-  LampRecognition recognition_;     // of the running particle
-  std::vector<LampSighting> kept_;  // by step, modulo Particles::kPathSteps
+  LampRecognition recognition_;     // Of the current particle
+  std::vector<LampSighting> kept_;  // By step, modulo Particles::kPathSteps
 
-  // Of the running update.
+  // Workspace of the current update.
   std::span<const LampSighting> seen_;
-  std::vector<double> log_reflections_;           // of each sighting: Reflections::log_density()
-  std::vector<std::int64_t> lamps_of_sightings_;  // of all particles
+  std::vector<double> log_reflections_;           // Of each detection: Reflections::log_density()
+  std::vector<std::int64_t> lamps_of_sightings_;  // Of all particles
   std::vector<double> log_weights_, weights_;
   std::vector<std::size_t> sources_;
 
-  /// Of the running particle's candidates.
+  /// Workspace for the candidates of the current particle.
   struct CandidateWork {
     std::vector<ExpectedLamp> lamps;
     std::vector<LampPair> pairs;
-    std::vector<int> target_of;  // of each sighting: index of a candidate
-    std::vector<int> free;       // sightings of no landmark
+    std::vector<int> target_of;  // Of each detection: index of a candidate
+    std::vector<int> free;       // Detections matched with no landmark
     std::vector<Ray> rays;
     std::vector<Symmetric3> gathered;
   };

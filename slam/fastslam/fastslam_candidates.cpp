@@ -1,4 +1,4 @@
-// Candidates of one particle, and how they become landmarks (SPEC II.8).
+// The candidates of one particle, and how they become landmarks (mathematics II.8).
 
 #include <algorithm>
 #include <cmath>
@@ -11,10 +11,11 @@
 namespace azimuth {
 namespace {
 
-/// The point of a first sighting at a guessed height: far more certain across the ray than along it.
+/// Sets the candidate's position from its first detection, at a guessed height: accurate across the ray, uncertain
+/// along it.
 void place_on_ray(const Viewpoint& from, const LampSighting& seen, double height_m, double height_sigma_m,
                   LampCandidate& candidate) {
-  constexpr double kLowestCosine = 0.05;  // lower than that, a ray meets the guessed height beyond all sense
+  constexpr double kLowestCosine = 0.05;  // Lower rays meet the guessed height too far away
   const Ray ray{from, &seen};
   const Eigen::Vector3d direction = ray.direction();
   const double cosine = std::max(direction.z(), kLowestCosine);
@@ -40,7 +41,8 @@ CrossingRules FastSlam::rules() const {
           settings_.candidates.min_cross_points};
 }
 
-/// What is no landmark may be a candidate, by the same scheme; what is none either becomes one.
+/// Associates the detections that belong to no landmark with candidates; each detection that stays without a candidate
+/// becomes a new candidate.
 void FastSlam::observe_candidates(ParticleStep& step, LampAssociator& associator) {
   candidate_work_.free.clear();
   for (std::size_t l = 0; l < seen_.size(); ++l)
@@ -65,7 +67,8 @@ void FastSlam::observe_candidates(ParticleStep& step, LampAssociator& associator
   begin_candidates(step);
 }
 
-/// Where there are more than there is room for, each gets its turn: reflections come and go, lamps are there again.
+/// If there is not room for all detections, the starting index rotates from step to step, so that each detection gets
+/// its turn: reflections vanish, lamps are detected again.
 void FastSlam::begin_candidates(const ParticleStep& step) {
   constexpr std::size_t kTurn = 13;
   const std::size_t room = particles_.room_for_candidates(step.k);
@@ -87,13 +90,13 @@ void FastSlam::pair_candidates(const ParticleStep& step) {
       double log_likelihood = log_normal(innovation(candidate_work_.lamps[c].view, step.x_t, seen),
                                          candidate_work_.lamps[c].of_point + seen.covariance);
       const double least = recognition_.log_new()[as_size(l)];
-      if (camera_.identities) log_likelihood = std::max(log_likelihood, least + 1.0);  // names do not lie
+      if (camera_.identities) log_likelihood = std::max(log_likelihood, least + 1.0);  // Identities are certain
       if (log_likelihood > least) candidate_work_.pairs.push_back({l, static_cast<int>(c), log_likelihood});
     }
   }
 }
 
-/// True when the candidate has become a landmark.
+/// Returns true if the candidate has become a landmark.
 bool FastSlam::observe(ParticleStep& step, LampCandidate& candidate, std::size_t l) {
   if (is_key_) candidate.counter.seen();
   correct(step.x_t, seen_[l], candidate.p_map, candidate.covariance);
@@ -104,7 +107,7 @@ bool FastSlam::observe(ParticleStep& step, LampCandidate& candidate, std::size_t
   return candidate.points.suffice(candidate.sighting_count, rules()) && make_landmark(step, candidate);
 }
 
-/// When there is no room left, every other one goes: the oldest have the widest parallax.
+/// If there is no room left, drops every other detection but keeps the oldest, which has the widest parallax.
 void FastSlam::keep_sighting(LampCandidate& candidate, std::size_t l) const {
   auto& sightings = candidate.sightings;
   std::size_t& count = candidate.sighting_count;
@@ -120,7 +123,7 @@ void FastSlam::keep_sighting(LampCandidate& candidate, std::size_t l) const {
   sightings[count++] = {step_, static_cast<std::int32_t>(l)};
 }
 
-/// The candidate's sightings, the current one last, each with the pose covariance gathered since.
+/// Collects the candidate's rays, the current one last, each with the pose covariance gathered since the detection.
 void FastSlam::collect_rays(const ParticleStep& step, LampCandidate& candidate) {
   candidate_work_.rays.clear();
   candidate_work_.gathered.clear();

@@ -1,4 +1,4 @@
-// How the errors of the best particle are followed (docs/mathematics.md II.11).
+// Propagation of the best particle's error covariance (docs/mathematics.md II.11).
 
 #include <algorithm>
 
@@ -8,8 +8,8 @@
 
 namespace azimuth {
 
-/// The errors go through what the particle does that was the best until now: most of what particles do is the same, and
-/// which one is the best is known too late.
+/// Propagates the errors through the step of the particle that was the best before this image. Most particles take
+/// nearly the same step, and which particle becomes the best is known only after the step.
 void FastSlam::follow_proposal(const ParticleStep& step, const Symmetric3& proposal) {
   errors_.begin_image(seen_.size());
   for (const std::size_t l : recognition_.by_certainty()) {
@@ -21,14 +21,14 @@ void FastSlam::follow_proposal(const ParticleStep& step, const Symmetric3& propo
   errors_.draw(proposal);
 }
 
-/// Only from where something is seen that is no landmark, one may be mapped.
+/// A new landmark can be mapped only from a pose that detects something unmapped, so only such poses are kept.
 void FastSlam::follow_pose() {
   bool all_known = true;
   for (std::size_t l = 0; l < seen_.size(); ++l) all_known = all_known && recognition_.lamp_of(l) != nullptr;
   if (!all_known) errors_.keep_pose(step_);
 }
 
-/// From now on: landmarks that only it has mapped come in as if mapped just now.
+/// Follows the new best particle: landmarks that only this particle has mapped are added as if mapped just now.
 void FastSlam::follow_best() {
   const auto infos = particles_.infos(best_);
   errors_.keep_if([&](std::int64_t id) { return std::ranges::find(infos, id, &LampInfo::id) != infos.end(); });
@@ -38,7 +38,7 @@ void FastSlam::follow_best() {
                   particles_.mapped_with(best_)[slot]);
 }
 
-/// The errors of the poses it was mapped from are known as long as these are kept.
+/// Adds a new landmark. The errors of the poses from which it was mapped are known as far as these poses are kept.
 void FastSlam::follow_new(const LampCandidate& candidate, const Eigen::Vector3d& p_map) {
   const auto sightings = std::span(candidate.sightings).first(candidate.sighting_count);
   std::size_t kept = sightings.size() - 1;

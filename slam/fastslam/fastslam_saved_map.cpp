@@ -1,4 +1,4 @@
-// FastSlam: beginning from a map, and saving it (docs/mathematics.md II.12).
+// FastSlam: starting from a map, and saving the map (docs/mathematics.md II.12).
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -17,7 +17,8 @@ using Index = Eigen::Index;
 constexpr std::size_t kFewestForRigid = 3;
 constexpr std::uint64_t kMostCounted = std::numeric_limits<std::uint32_t>::max();
 
-/// How a rigid motion of the whole map in the plane moves its landmarks: translations, and a turn about its middle.
+/// Derivatives of the landmarks by a rigid motion of the whole map in the plane: translations, and a rotation about its
+/// centroid.
 Eigen::MatrixX3d by_rigid_motion(const MapSnapshot& map) {
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
   for (const MapLandmark& landmark : map.landmarks)
@@ -32,9 +33,9 @@ Eigen::MatrixX3d by_rigid_motion(const MapSnapshot& map) {
   return J;
 }
 
-/// The covariance of the landmarks among themselves. What all of them are off by together, as one rigid body, is of no
-/// concern to a robot that finds its pose in the map, and a particle, which takes landmarks for independent, would
-/// have it average out.
+/// Covariance of the landmarks relative to each other, without their common error as a rigid body. The common error
+/// does not matter to a robot that localises in the map. A particle takes landmarks as independent, so it would wrongly
+/// average a common error out.
 Eigen::MatrixXd within_map(const MapSnapshot& map) {
   const Index size = 3 * as_index(map.landmarks.size());
   const std::size_t first = map.first_landmark_entry();
@@ -79,7 +80,7 @@ void FastSlam::restore(const MapSnapshot& map) {
   errors_.restore(map);
 }
 
-/// Each particle is off by what the robot is, and by what it is drawn off by.
+/// Each particle's error is that of the robot plus the drawn offset.
 void FastSlam::disperse(const Eigen::Matrix3d& covariance) {
   if (covariance.isZero(0.0)) return;
   const Eigen::Matrix3d L = semidefinite_factor(Symmetric3::of(covariance));
@@ -94,7 +95,7 @@ void FastSlam::disperse(const Eigen::Matrix3d& covariance) {
   pending_.covariance += covariance;
 }
 
-/// Candidates were seen from a path that leads elsewhere.
+/// Deletes the candidates, because their detections were made along the path before the move.
 void FastSlam::place(const Pose2& T_map_body, const Eigen::Matrix3d& covariance) {
   for (std::size_t k = 0; k < particles_.size(); ++k) {
     particles_[k].T_map_body = T_map_body;

@@ -1,5 +1,5 @@
 #pragma once
-// What speaks for a landmark being a lamp, and not what a crowd of reflections looks like by chance.
+// Evidence that a landmark is a lamp and not a chance pattern of reflections.
 
 #include <cstddef>
 #include <limits>
@@ -8,36 +8,36 @@
 
 namespace azimuth {
 
-/// Reflections of an image as chance would have them: anywhere in view, all directions alike.
+/// Model of an image's reflections by chance: uniformly distributed over the field of view.
 class Reflections {
  public:
   Reflections() = default;
-  /// `count` of them, as far as `max_zenith_rad` from the zenith.
+  /// `count` reflections within `max_zenith_rad` of the zenith.
   Reflections(std::size_t count, double max_zenith_rad);
 
-  /// ln of how many to expect per steradian.
+  /// ln of the expected number per steradian.
   double log_per_sr() const { return log_per_sr_; }
-  /// ln of how many to expect per unit of azimuth and zenith where `seen` is.
+  /// ln of the expected number per unit of azimuth and zenith at the direction of `seen`.
   double log_density(const LampSighting& seen) const;
 
  private:
   double log_per_sr_ = 0.0;
 };
 
-/// A sequential test of Wald's: ln of how much likelier it is that the landmark is a lamp than that its sightings were
-/// reflections, which happened to be where it was expected. Between both bounds nothing is known. A crowd of
-/// reflections proves a landmark once in so many times only, however long it goes on, as long as what is missed counts
-/// wherever what is seen does.
+/// Wald's sequential test: the log-likelihood ratio of a landmark being a lamp to its detections being reflections that
+/// happened to be at the predicted direction. Between the two bounds the test is undecided. Reflections prove a
+/// landmark with a probability of at most exp(-kProof), however long the test runs, provided that misses are counted
+/// wherever detections are.
 class LampEvidence {
  public:
-  static constexpr double kProof = 9.2;  ///< ln 10,000: there are many landmarks, and a map of each particle
+  static constexpr double kProof = 9.2;  ///< ln 10,000: there are many landmarks, and each particle has a map
 
-  /// Seen where it was expected with `log_likelihood`, as likely as `log_reflection` by chance.
+  /// A detection at the predicted direction: ln of its density for the lamp and for a chance reflection.
   void seen(double log_likelihood, double log_reflection) { add(log_likelihood - log_reflection); }
-  /// In view, but not seen; `log_miss` is ln of how likely that is of a lamp.
+  /// A miss within the field of view; `log_miss` is ln of its probability for a lamp.
   void missed(double log_miss) { add(log_miss); }
 
-  /// By its name.
+  /// Evidence for a landmark with an identity.
   static LampEvidence certain() {
     LampEvidence evidence;
     evidence.log_odds_ = kProven;
@@ -48,7 +48,7 @@ class LampEvidence {
   bool refuted() const { return log_odds_ < -kProof; }
 
  private:
-  static constexpr double kProven = std::numeric_limits<double>::infinity();  // nothing takes it back
+  static constexpr double kProven = std::numeric_limits<double>::infinity();  // Final: no further evidence changes it
 
   void add(double log_ratio) {
     log_odds_ += log_ratio;

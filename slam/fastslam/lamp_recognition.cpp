@@ -50,8 +50,8 @@ void LampRecognition::recognise(const Particles& particles, const ParticleStep& 
   order_by_certainty(particles, step.k);
 }
 
-/// Most particles have it where the one before had it, as they descend from one; a search through its map would fetch
-/// all of that.
+/// Finds the landmark with the detection's identity. Most particles have it in the slot where the previous particle had
+/// it, since they have a common ancestor; a search would load the particle's whole map from memory.
 std::size_t LampRecognition::slot_of_name(std::span<const LampInfo> infos, std::size_t sighting) {
   std::size_t& slot = last_slots_[sighting];
   const Identity name = seen_[sighting].identity;
@@ -86,18 +86,19 @@ void LampRecognition::expect_visible(const Particles& particles, const ParticleS
   }
 }
 
-/// False where even the nearest point that the landmark may be at is outside of the image.
+/// Returns false if the landmark is outside the image even at the nearest position that its covariance allows.
 bool LampRecognition::may_be_in_view(const ParticleStep& step, const Eigen::Vector3d& p_map,
                                      const Symmetric3& Sigma) const {
   const double dx = p_map.x() - step.x_hat.x_m, dy = p_map.y() - step.x_hat.y_m;
   const double doubt_m = kFarOff_sigmas * std::sqrt(Sigma.trace() + step.R.xx + step.R.yy);
   const double rho = std::max(0.0, std::sqrt(dx * dx + dy * dy) - doubt_m), dz = p_map.z() - step.x_hat.z_m + doubt_m;
-  constexpr double kOutside = 0.05;  // of the cosine: what noise adds to the zenith
+  constexpr double kOutside = 0.05;  // Margin of the cosine for the noise of the zenith
   return is_within_zenith(rho * rho, dz, cos_max_zenith_ - kOutside);
 }
 
-/// Algorithm 2 for every pair that is not ruled out before any angle is computed: sin^2 of an innovation is at most its
-/// square, and that over its own variance at most the squared distance.
+/// Algorithm 2 for every pair that cannot be ruled out without computing angles. The test uses that sin^2 of an
+/// innovation is at most its square, and that this square over its variance is at most the squared Mahalanobis
+/// distance.
 void LampRecognition::pair_landmarks(const Particles& particles, const ParticleStep& step) {
   pairs_.clear();
   const bool marginal = settings_.likelihood == LampLikelihood::marginal;
@@ -137,7 +138,7 @@ void LampRecognition::weigh(const Viewpoint& x_hat) {
   }
 }
 
-/// Of equally certain landmarks, the less likely sighting first.
+/// Orders the detections of near landmarks. Of equally certain landmarks, the less likely detection comes first.
 void LampRecognition::order_by_certainty(const Particles& particles, std::size_t k) {
   order_.clear();
   const auto infos = particles.infos(k);

@@ -13,49 +13,49 @@
 
 namespace azimuth {
 
-/// What the filter has to know of the camera.
+/// The camera properties that the filter needs.
 struct LampCamera {
-  double height_m = 0.0;                ///< of its viewpoint
-  double max_zenith_rad = kPi / 2.0;    ///< it sees up to here
-  double detection_probability = 0.85;  ///< of a lamp in view
-  bool identities = false;              ///< sightings carry names, and nothing is to be associated
+  double height_m = 0.0;                ///< Height of the viewpoint
+  double max_zenith_rad = kPi / 2.0;    ///< Limit of the field of view
+  double detection_probability = 0.85;  ///< For a lamp in the field of view
+  bool identities = false;              ///< Detections carry identities, so no data association is needed
 };
 
-/// What one particle's step works on.
+/// The state of one particle's step.
 struct ParticleStep {
-  std::size_t k;         ///< of the particle
-  Viewpoint x_hat, x_t;  ///< where the motion leads, by its mean; and the pose that was drawn
-  Symmetric3 R;          ///< of the motion
+  std::size_t k;         ///< Index of the particle
+  Viewpoint x_hat, x_t;  ///< x_hat: the mean predicted by the motion; x_t: the drawn pose
+  Symmetric3 R;          ///< Covariance of the motion
 };
 
-/// Which sightings of an image are of which landmarks of a particle, as seen from where the motion leads it (SPEC II.4
-/// and II.5).
+/// Associates the detections of an image with the landmarks of a particle, as seen from its predicted pose (mathematics
+/// II.4 and II.5).
 ///
 /// Thread contract: thread-bound; does not allocate.
 class LampRecognition {
  public:
   LampRecognition(const FastSlamSettings& settings, const LampCamera& camera, std::size_t most_sightings);
 
-  /// The image all particles look at. It must live until the next one begins.
+  /// Sets the image for all particles. `seen` must stay valid until the next call.
   void begin(std::span<const LampSighting> seen);
-  /// Replaces what is asked below by what this particle recognises.
+  /// Computes the results below for one particle.
   void recognise(const Particles& particles, const ParticleStep& step, LampAssociator& associator);
 
   std::span<const LampSighting> seen() const { return seen_; }
-  /// ln of how likely a sighting is of something new; what explains it less well is not considered.
+  /// ln of the likelihood that a detection is of something new; less likely explanations are not considered.
   std::span<const double> log_new() const { return log_new_; }
-  /// The landmark that a sighting is of, as it was expected; null: of none.
+  /// The predicted detection of the landmark with which a detection is associated; null if there is none.
   const ExpectedLamp* lamp_of(std::size_t sighting) const {
     return target_of_[sighting] == kNoTarget ? nullptr : &lamps_[as_size(target_of_[sighting])];
   }
-  /// z - h(x_hat) of a sighting that is of a landmark, and ln of how likely that is (log_likelihood_marginal()).
+  /// z - h(x_hat) of an associated detection, and ln of its likelihood (log_likelihood_marginal()).
   const Eigen::Vector2d& innovation_of(std::size_t sighting) const { return of_landmark_[sighting].innovation; }
   double log_likelihood_of(std::size_t sighting) const { return of_landmark_[sighting].log_likelihood; }
-  /// The landmarks that were expected in the image.
+  /// The landmarks whose detection was predicted in the image.
   std::span<const ExpectedLamp> lamps() const { return lamps_; }
   /// Whether the landmark in each slot was recognised.
   std::span<const std::uint8_t> recognised() const { return recognised_; }
-  /// The sightings of near landmarks, the most certain landmark first.
+  /// The detections of near landmarks, ordered by falling certainty of the landmark.
   std::span<const std::size_t> by_certainty() const { return order_; }
 
  private:
@@ -75,15 +75,15 @@ class LampRecognition {
   std::vector<double> log_new_;
   std::vector<ExpectedLamp> lamps_;
   std::vector<LampPair> pairs_;
-  std::vector<int> target_of_;         // of each sighting: index into lamps_
-  std::vector<double> likelihood_of_;  // of each sighting that has a target
-  /// Of each sighting that has a target.
+  std::vector<int> target_of_;         // Of each detection: index into lamps_
+  std::vector<double> likelihood_of_;  // Of each associated detection
+  /// Results for each associated detection.
   struct OfLandmark {
     Eigen::Vector2d innovation = Eigen::Vector2d::Zero();
     double log_likelihood = 0.0;
   };
   std::vector<OfLandmark> of_landmark_;
-  std::vector<std::size_t> last_slots_;  // of each sighting: in the particle before
+  std::vector<std::size_t> last_slots_;  // Of each detection: the landmark's slot in the previous particle
   std::vector<std::size_t> order_;
   std::vector<std::uint8_t> recognised_;
 };

@@ -1,5 +1,6 @@
 #pragma once
-// How a camera that looks up sees a lamp (SPEC II.2): z = (azimuth, zenith), zenith from the optical axis.
+// The measurement model of a lamp for a camera that looks up (mathematics II.2): z = (azimuth, zenith), where zenith is
+// the angle from the optical axis.
 
 #include <Eigen/Core>
 #include <cmath>
@@ -10,14 +11,14 @@
 
 namespace azimuth {
 
-/// One lamp in one image, with what every particle would else compute for itself.
+/// The detection of one lamp in one image, with precomputed values that every particle needs.
 struct LampSighting {
-  double azimuth_rad = 0.0;  ///< counter-clockwise from the robot's heading, [-pi, pi)
-  double zenith_rad = 0.0;   ///< from straight up, [0, pi]
+  double azimuth_rad = 0.0;  ///< Counter-clockwise from the robot's heading, in [-pi, pi)
+  double zenith_rad = 0.0;   ///< From straight up, in [0, pi]
   Symmetric2 covariance;     ///< Q_l, of (azimuth, zenith) [rad^2]
   Identity identity = kUnknownIdentity;
-  Both cosine{1.0, 1.0}, sine{0.0, 0.0};  ///< of azimuth and zenith
-  double log_peak = 0.0;                  ///< ln of the largest density of N(.; Q_l)
+  Both cosine{1.0, 1.0}, sine{0.0, 0.0};  ///< Of azimuth and zenith
+  double log_peak = 0.0;                  ///< ln of the peak density of N(.; Q_l)
 
   double cos_azimuth() const { return cosine[0]; }
   double sin_azimuth() const { return sine[0]; }
@@ -27,7 +28,7 @@ struct LampSighting {
 LampSighting make_sighting(double azimuth_rad, double zenith_rad, const Symmetric2& covariance,
                            Identity identity = kUnknownIdentity);
 
-/// The camera's place in the map, and the heading with its sine and cosine.
+/// The camera's position in the map, and the heading with its sine and cosine.
 struct Viewpoint {
   double x_m = 0.0, y_m = 0.0, z_m = 0.0;
   double heading_rad = 0.0, cos = 1.0, sin = 0.0;
@@ -45,14 +46,14 @@ struct Viewpoint {
   Pose2 T_map_body() const { return {x_m, y_m, heading_rad}; }
 };
 
-/// Where a point is from a viewpoint, and how both move its direction:
+/// The offset of a point from a viewpoint, and the derivatives of its direction:
 ///   H_x = [by_x, by_y, (-1, 0)] by (x, y, heading), H_m = [-by_x, -by_y, (0, by_z)] by the point
 struct LampView {
   double dx_m = 0.0, dy_m = 0.0, dz_m = 0.0;
-  double rho_m = 0.0;         ///< horizontal distance
-  double distance2_m2 = 0.0;  ///< squared distance
-  Both by_x{}, by_y{};        ///< of azimuth and zenith by a metre of the pose [rad/m]
-  double by_z = 0.0;          ///< of the zenith by a metre of the point's height [rad/m]
+  double rho_m = 0.0;         ///< Horizontal distance
+  double distance2_m2 = 0.0;  ///< Squared distance
+  Both by_x{}, by_y{};        ///< Derivatives of azimuth and zenith by the pose's x and y [rad/m]
+  double by_z = 0.0;          ///< Derivative of the zenith by the point's height [rad/m]
 
   TwoRows by_pose() const { return {by_x, by_y, Both{-1.0, 0.0}}; }
   TwoRows by_point() const { return {-by_x, -by_y, Both{0.0, by_z}}; }
@@ -64,7 +65,7 @@ struct LampView {
   Symmetric2 of_point(const Symmetric3& Sigma) const { return quadratic(by_point(), by_point().times(Sigma)); }
 };
 
-/// Straight below a lamp its azimuth means nothing: the model is that of this horizontal distance.
+/// Least horizontal distance of the model. Straight below a lamp the azimuth is undefined.
 inline constexpr double kNearestAxis_m = 1e-3;
 
 /* h(m, x) = (wrap(atan2(dy, dx) - heading), atan2(rho, dz)), q = rho^2, D2 = q + dz^2:
@@ -86,7 +87,8 @@ inline LampView view(const Viewpoint& from, const Eigen::Vector3d& p_map) {
   return v;
 }
 
-/// Whether a point that far off and that much higher has a zenith of at most the given cosine's; without a root.
+/// Whether a point at this horizontal distance and height above the camera has at most the zenith angle of the given
+/// cosine; needs no square root.
 inline bool is_within_zenith(double horizontal2_m2, double dz_m, double cos_max_zenith) {
   const auto signed_square = [](double value) { return value * std::abs(value); };
   return signed_square(dz_m) >= signed_square(cos_max_zenith) * (horizontal2_m2 + dz_m * dz_m);
@@ -95,12 +97,12 @@ inline bool is_within_zenith(double horizontal2_m2, double dz_m, double cos_max_
 /// (azimuth, zenith) of the point.
 Eigen::Vector2d direction_of(const LampView& view, double heading_rad);
 
-/// atan2(sine, cosine) of each, short for the small angles that most innovations are.
+/// Element-wise atan2(sine, cosine), with a short series for small angles, which most innovations are.
 inline Eigen::Vector2d small_atan2(const Both& sine, const Both& cosine) {
   const Both t = sine / cosine, u = t * t;
   const auto is_small = [&](int i) { return cosine[i] > 0.0 && std::abs(t[i]) < 0.1; };
   const auto angle = [&](int i, const Both& small) { return is_small(i) ? small[i] : std::atan2(sine[i], cosine[i]); };
-  // The first term left out is below 1e-17.
+  // The first omitted term is below 1e-17.
   const Both small =
       t * (1.0 - u * (1.0 / 3.0 -
                       u * (1.0 / 5.0 -
@@ -109,10 +111,12 @@ inline Eigen::Vector2d small_atan2(const Both& sine, const Both& cosine) {
   return {angle(0, small), angle(1, small)};
 }
 
-/// The lamp's direction against the predicted one, as lengths across and along the latter: the angles themselves are
-/// only computed where these do not rule a pair out.
+/// The deviation of a detected from a predicted direction, as lengths. They rule out most pairs, so that angles are
+/// computed only for the remaining ones.
 struct Offset {
-  Both across_m, along_m;  ///< rho times sine and cosine of the azimuth's innovation, distance times the zenith's
+  /// Element 0: horizontal distance times sine (across) and cosine (along) of the azimuth's innovation. Element 1:
+  /// distance times sine and cosine of the zenith's innovation.
+  Both across_m, along_m;
 
   Eigen::Vector2d innovation() const { return small_atan2(across_m, along_m); }
 };

@@ -50,7 +50,7 @@ void Particles::remove_landmark(std::size_t k, std::size_t slot) {
 LampCandidate& Particles::add_candidate(std::size_t k) {
   assert(has_room_for_candidate(k));
   ++particles_[k].candidates;
-  return *std::construct_at(&candidates(k).back());  // no temporary: a candidate is large
+  return *std::construct_at(&candidates(k).back());  // Constructed in place, since a candidate is large
 }
 
 void Particles::remove_candidate(std::size_t k, std::size_t slot) {
@@ -77,14 +77,14 @@ void Particles::fetch_ahead(std::size_t k, std::int64_t step, std::span<const Ex
     for (std::size_t i = 0; i < sizeof(*what); i += kLineBytes) __builtin_prefetch(first + i);
     __builtin_prefetch(first + sizeof(*what) - 1);
   };
-  for (const ExpectedLamp& lamp : lamps)  // there need be no landmark in that slot
+  for (const ExpectedLamp& lamp : lamps)  // There may be no landmark in this slot
     fetch(&covariances_[k * max_landmarks_ + as_size(lamp.slot)]);
   nearby(k).for_each_from_last([&](std::size_t slot) {
     fetch(&positions_[k * max_landmarks_ + slot]);
     fetch(&infos_[k * max_landmarks_ + slot]);
   });
   if (step >= 0) fetch(&path(k, step));
-  asm volatile("");  // what does no more than that is taken for a function without effect, and not called
+  asm volatile("");  // Without this, GCC takes the function as free of effects and drops the call
 }
 
 void Particles::copy(std::size_t from, std::size_t to, std::int64_t step) {
@@ -96,7 +96,7 @@ void Particles::copy(std::size_t from, std::size_t to, std::int64_t step) {
   std::copy_n(nearby_.begin() + as_index(from * words_of_map_), words_of_map_,
               nearby_.begin() + as_index(to * words_of_map_));
   std::ranges::copy(candidates(from), candidates(to).begin());
-  std::int64_t oldest = step;  // the path is only needed as far back as a candidate was first seen
+  std::int64_t oldest = step;  // The path is needed only back to the first detection of a candidate
   for (const LampCandidate& candidate : candidates(from)) oldest = std::min(oldest, candidate.sightings[0].step);
   for (std::int64_t s = std::max(oldest, step - kPathSteps + 1); s <= step; ++s) path(to, s) = path(from, s);
 }

@@ -1,6 +1,6 @@
 #pragma once
-// The particles' storage: everything of all of them in a few flat arrays with a fixed room for each, so that a step
-// allocates nothing and a copy moves only what is in use.
+// Storage of the particles: flat arrays with fixed room for each particle, so that a step does not allocate and a copy
+// moves only the part in use.
 
 #include <array>
 #include <cstddef>
@@ -20,58 +20,61 @@
 
 namespace azimuth {
 
-/// What every step asks of a landmark beside its place; small, as it is fetched anew for each particle.
+/// Small data of a landmark that every step needs, in addition to its position. Kept small because it is fetched from
+/// memory for each particle.
 struct LampInfo {
-  std::int64_t id = 0;                   ///< the number of its first sighting: alike in particles that agree on it
-  Identity identity = kUnknownIdentity;  ///< the sensor's name for it, if any
-  int counter = 0;                       ///< sightings less misses
-  std::uint32_t sightings = 0;           ///< that corrected it
-  LampEvidence evidence = {};            ///< for it to be a lamp at all
-  bool near = false;                     ///< type I: used for pose and weight
+  /// Number of the landmark's first detection, which is equal in all particles that agree on the landmark
+  std::int64_t id = 0;
+  Identity identity = kUnknownIdentity;  ///< The sensor's identity for the landmark, if any
+  int counter = 0;                       ///< Detections minus misses
+  std::uint32_t sightings = 0;           ///< Number of detections that corrected the landmark
+  LampEvidence evidence = {};            ///< Evidence that the landmark is a lamp
+  bool near = false;                     ///< Type I: used for pose and weight
 };
 
-/// Sightings of a candidate less what its misses cost: each one in a row costs one more than the one before.
+/// Counts the detections of a candidate minus a penalty for misses: each consecutive miss costs one more than the
+/// previous.
 struct CandidateCounter {
   int count = 1;
-  int misses = 0;  ///< in a row
+  int misses = 0;  ///< Consecutive misses
   void seen() {
     ++count;
     misses = 0;
   }
-  /// False: the candidate is to be deleted.
+  /// Returns false if the candidate must be deleted.
   bool missed() {
     count -= ++misses;
     return count > 0;
   }
 };
 
-/// Which sighting, of those kept.
+/// Index of a kept detection.
 struct SightingIndex {
   std::int64_t step = 0;
   std::int32_t in_step = 0;
 };
 
-/// Something seen that is no landmark yet. Trivially copyable.
+/// A detected object that is not yet a landmark. Trivially copyable.
 struct LampCandidate {
   static constexpr std::size_t kMostSightings = 48;
 
   std::int64_t id = 0;
   Identity identity = kUnknownIdentity;
   CandidateCounter counter;
-  Eigen::Vector3d p_map = Eigen::Vector3d::Zero();  ///< its Gaussian point, for association
+  Eigen::Vector3d p_map = Eigen::Vector3d::Zero();  ///< Mean of its Gaussian position, for data association
   Symmetric3 covariance;
-  std::array<SightingIndex, kMostSightings> sightings;  ///< oldest first
+  std::array<SightingIndex, kMostSightings> sightings;  ///< Oldest first
   std::size_t sighting_count = 0;
   CrossPoints points;
 };
 
-/// Where a particle was at a step whose sightings are kept.
+/// A particle's pose at a step whose detections are kept.
 struct PathPoint {
   Viewpoint from;
-  Symmetric3 gathered;  ///< covariance of all its proposals until then, summed
+  Symmetric3 gathered;  ///< Sum of the covariances of all its proposals up to this step
 };
 
-/// What became of a particle's landmarks since its line of descent began.
+/// Numbers of landmarks created and deleted in the particle's line of descent.
 struct MapCounts {
   std::uint64_t created = 0, deleted = 0;
 };
@@ -82,15 +85,16 @@ struct Particle {
   Symmetric3 gathered;
   std::size_t landmarks = 0, candidates = 0;
   MapCounts counts;
-  double log_evidence = 0.0;  ///< of the last image, for the landmarks that are lamps: less than 0 speaks against them
-  /// Where it was when all of its landmarks were last asked which are near; none: never.
+  /// Log evidence of the last image for the proven landmarks; a negative value speaks against them
+  double log_evidence = 0.0;
+  /// Position at which all landmarks were last tested for nearness; nullopt if they never were.
   std::optional<Eigen::Vector2d> asked_from_m;
 };
 
 /// Thread contract: thread-bound. Nothing allocates after construction.
 class Particles {
  public:
-  static constexpr std::int64_t kPathSteps = 512;  ///< older poses and sightings are forgotten
+  static constexpr std::int64_t kPathSteps = 512;  ///< Older poses and detections are dropped
 
   Particles(std::size_t count, std::size_t max_landmarks, std::size_t max_candidates);
 
@@ -105,9 +109,9 @@ class Particles {
   std::span<const Symmetric3> covariances(std::size_t k) const { return map_of(covariances_, k); }
   std::span<LampInfo> infos(std::size_t k) { return map_of(infos_, k); }
   std::span<const LampInfo> infos(std::size_t k) const { return map_of(infos_, k); }
-  /// The covariance of each landmark's error as seen from the pose it was mapped from.
+  /// Covariance of each landmark's error relative to the pose from which it was mapped.
   std::span<const Symmetric3> mapped_with(std::size_t k) const { return map_of(mapped_with_, k); }
-  /// Those of a particle's landmarks, by slot, that its whereabouts may bring into view; new ones are among them.
+  /// The slots of a particle's landmarks that may be in the field of view near its position, including new landmarks.
   SlotSet<std::uint64_t> nearby(std::size_t k) {
     return SlotSet(std::span(nearby_.data() + k * words_of_map_, words_of_map_));
   }
@@ -117,7 +121,7 @@ class Particles {
   bool has_room_for_landmark(std::size_t k) const { return particles_[k].landmarks < max_landmarks_; }
   void add_landmark(std::size_t k, const Eigen::Vector3d& p_map, const Symmetric3& covariance, const LampInfo& info,
                     const Symmetric3& mapped_with = {});
-  /// The last one takes its slot.
+  /// Removes a landmark; the last one moves to its slot.
   void remove_landmark(std::size_t k, std::size_t slot);
 
   std::span<LampCandidate> candidates(std::size_t k) {
@@ -134,12 +138,12 @@ class Particles {
   PathPoint& path(std::size_t k, std::int64_t step) { return path_[path_index(k, step)]; }
   const PathPoint& path(std::size_t k, std::int64_t step) const { return path_[path_index(k, step)]; }
 
-  /// Replaces the particles by copies of those in `source` (ascending). Every one that survives stays where it is; only
-  /// further copies are made, in the place of the lost. `step` is the newest step of the paths.
+  /// Replaces the particles by copies of those in `source` (ascending). Each surviving particle stays in place; only
+  /// its further copies are made, in the places of lost particles. `step` is the newest step of the paths.
   void resample(std::span<const std::size_t> source, std::int64_t step);
 
-  /// Particle k is next, at this step, and may see the same lamps: where there are many particles, nothing of it is
-  /// near the processor any more, and waiting for it would take longer than all that is computed.
+  /// Prefetches the data of particle k, which is processed next at this step and may see the same lamps. With many
+  /// particles the data are no longer in the caches, and waiting for them would take longer than the computation.
   void fetch_ahead(std::size_t k, std::int64_t step, std::span<const ExpectedLamp> lamps) const;
 
  private:
@@ -165,7 +169,7 @@ class Particles {
   std::vector<std::uint64_t> nearby_;
   std::vector<LampCandidate> candidates_;
   std::vector<PathPoint> path_;
-  std::vector<std::size_t> copies_;  // of the running resampling
+  std::vector<std::size_t> copies_;  // Workspace of resample()
 };
 
 }  // namespace azimuth

@@ -1,5 +1,5 @@
 #pragma once
-// Algorithm 3: the pose of one particle given the landmarks it recognises (SPEC II.6).
+// Algorithm 3: the pose of one particle given the landmarks that it recognises (mathematics II.6).
 
 #include <Eigen/Core>
 
@@ -8,20 +8,20 @@
 
 namespace azimuth {
 
-/// N(mu_j, Sigma_j), from N(x_hat, R) by one landmark after the other. The gain form, which needs no inverse of R:
-///   S = H_x Sigma_{j-1} H_x^T + Q_j,  K = Sigma_{j-1} H_x^T S^-1,  mu_j = mu_{j-1} + K nu,  Sigma_j = Sigma_{j-1} - K
-///   S K^T
+/// N(mu_j, Sigma_j), obtained from N(x_hat, R) by one landmark after the other. The gain form needs no inverse of R:
+///   S = H_x Sigma_{j-1} H_x^T + Q_j,  K = Sigma_{j-1} H_x^T S^-1,
+///   mu_j = mu_{j-1} + K nu,  Sigma_j = Sigma_{j-1} - K S K^T
 ///
 /// Thread contract: reentrant.
 class PoseProposal {
  public:
   PoseProposal(const Eigen::Vector3d& x_hat, const Symmetric3& R) : x_hat_(x_hat), covariance_(R) {}
 
-  /// A view from x_hat and its innovation there, carried over to mu_{j-1} linearly: nu - H_x (mu_{j-1} - x_hat).
-  /// `Q` is Q_l + H_m Sigma H_m^T.
+  /// Adds a landmark by its view and innovation at x_hat. The innovation is transferred linearly to mu_{j-1}: nu - H_x
+  /// (mu_{j-1} - x_hat). `Q` is Q_l + H_m Sigma H_m^T.
   void add(const LampView& view_from_x_hat, const Eigen::Vector2d& innovation, const Symmetric2& Q);
 
-  /// Linearised anew at mu_{j-1}; `Sigma` is the landmark's.
+  /// Adds a landmark with the model linearised at mu_{j-1}; `Sigma` is the landmark's covariance.
   void add_relinearised(const Eigen::Vector3d& p_map, const Symmetric3& Sigma, const LampSighting& seen,
                         double height_m);
 
@@ -31,8 +31,8 @@ class PoseProposal {
   }
   const Symmetric3& covariance() const { return covariance_; }
 
-  /// ln of the joint density of all innovations so far, N(nu; 0, H R H^T + blkdiag(Q_j)); exact when all were added at
-  /// x_hat.
+  /// ln of the joint density of all innovations added, N(nu; 0, H R H^T + blkdiag(Q_j)). It is exact if all were added
+  /// at x_hat.
   double log_likelihood() const { return log_likelihood_; }
 
  private:

@@ -11,7 +11,7 @@ constexpr int kMaxIterations = 10;
 constexpr double kConverged_m = 1e-6;
 constexpr double kFarthestStep_m = 10.0;
 
-/// A pose drawn from its proposal is off by what the proposal's mean is, and by the draw.
+/// A drawn pose has the error of the proposal's mean plus that of the draw: twice the proposal's covariance.
 constexpr double kPathErrors = 2.0;
 
 struct NormalEquations {
@@ -50,10 +50,10 @@ std::optional<LampFit> fit_point(std::span<const Ray> rays, std::span<const Symm
   return std::nullopt;
 }
 
-/* With A the inverse of the information and W_i the weights, the point is off by A sum_i H_i^T W_i (v_i - H_x,i e_i).
- * Up to the first pose apart, that of ray i is off by e_i = T_i e + sum_{k >= i} T_ik d_k: what is said of that first
- * one, d_k added on the way from ray k to the next, and T the lever arms of their headings: own = A [sum_i H_i^T W_i
- * Q_i W_i H_i + sum_k F_k D_k F_k^T] A,  F_k = sum_{i <= k} H_i^T W_i H_x,i T_ik
+/* With A the inverse of the information and W_i the weights, the error of the point is A sum_i H_i^T W_i (v_i - H_x,i
+ * e_i). Let e be the error of the pose `first_apart`. The pose of an earlier ray i has the error e_i = T_i e +
+ * sum_{k >= i} T_ik d_k, where d_k is the drift from ray k to the next and T holds the lever arms of the headings:
+ *   own = A [sum_i H_i^T W_i Q_i W_i H_i + sum_k F_k D_k F_k^T] A,  F_k = sum_{i <= k} H_i^T W_i H_x,i T_ik
  */
 LampFitError error_of_fit(std::span<const Ray> rays, std::span<const Symmetric3> pose_covariances,
                           const Eigen::Vector3d& p_map, std::size_t first_apart) {

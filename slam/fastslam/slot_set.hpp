@@ -1,5 +1,5 @@
 #pragma once
-// A set of slots of a particle's map: a bit for each, in words that are kept elsewhere.
+// A set of slots of a particle's map: one bit for each, in words stored outside this class.
 
 #include <bit>
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace azimuth {
 
-/// Thread contract: as the words have it.
+/// Thread contract: that of the words.
 template <class Word = std::uint64_t>
 class SlotSet {
  public:
@@ -21,7 +21,7 @@ class SlotSet {
   void insert(std::size_t slot) { words_[slot / kSlotsOfWord] |= bit(slot); }
   void erase(std::size_t slot) { words_[slot / kSlotsOfWord] &= ~bit(slot); }
 
-  /// `what(slot)` for each, the last slot first. It may erase that slot, and change what is after it.
+  /// Calls `what(slot)` for each slot, from the last to the first. `what` may erase this slot and change later ones.
   template <class What>
   void for_each_from_last(What&& what) const {
     for (std::size_t w = words_.size(); w-- > 0;)

@@ -1,5 +1,5 @@
 #pragma once
-// Symmetric matrices by their upper triangle: half the memory of a particle's map, and no difference between triangles.
+// Symmetric matrices stored as upper triangles: half the memory for a particle's map, and exact symmetry.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -25,7 +25,7 @@ struct Symmetric3 {
   double trace() const { return xx + yy + zz; }
   Eigen::Matrix3d matrix() const { return Eigen::Matrix3d{{xx, xy, xz}, {xy, yy, yz}, {xz, yz, zz}}; }
   static Symmetric3 of(const Eigen::Matrix3d& m) { return {m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2)}; }
-  /// Adds `factor` times v w^T for a sum that is symmetric when all of its terms are in.
+  /// Adds `factor` * v w^T. The sum of all terms must be symmetric.
   void add(double factor, const Eigen::Vector3d& v, const Eigen::Vector3d& w) {
     xx += factor * v.x() * w.x();
     xy += factor * v.x() * w.y();
@@ -43,11 +43,11 @@ inline Symmetric3 operator-(const Symmetric3& a, const Symmetric3& b) {
   return {a.xx - b.xx, a.xy - b.xy, a.xz - b.xz, a.yy - b.yy, a.yz - b.yz, a.zz - b.zz};
 }
 
-/// What two correlated measurements have each, computed at once: as GCC's vectors, since halves of an Eigen vector go
-/// through memory.
+/// A value for each of two correlated measurements, computed together. A GCC vector, since access to halves of an Eigen
+/// vector goes through memory.
 using Both = double __attribute__((vector_size(16)));
 
-/// Two linear measurements of three quantities: H by its columns, or H P.
+/// Two linear measurements of three quantities: the columns of H, or of H P.
 struct TwoRows {
   Both x{}, y{}, z{};
 
@@ -59,14 +59,14 @@ struct TwoRows {
     return Eigen::Matrix<double, 2, 3>{{x[0], y[0], z[0]}, {x[1], y[1], z[1]}};
   }
 };
-/// H P H^T of H and H P
+/// H P H^T, from H and H P.
 inline Symmetric2 quadratic(const TwoRows& H, const TwoRows& HP) {
   const Both own = H.x * HP.x + H.y * HP.y + H.z * HP.z;
   return {own[0], H.x[1] * HP.x[0] + H.y[1] * HP.y[0] + H.z[1] * HP.z[0], own[1]};
 }
 
-/// A Kalman update by two correlated measurements: S = H P H^T + R, nu the innovation. Adds K nu to `mean` and takes
-/// K S K^T from P.
+/// A Kalman update by two correlated measurements with innovation nu and S = H P H^T + R. Adds K nu to `mean` and
+/// subtracts K S K^T from P.
 inline void correct(const TwoRows& HP, const Symmetric2& S, const Eigen::Vector2d& nu, Eigen::Vector3d& mean,
                     Symmetric3& P) {
   const double over = 1.0 / S.determinant();
@@ -79,8 +79,7 @@ inline void correct(const TwoRows& HP, const Symmetric2& S, const Eigen::Vector2
        less(P.yy, K_y * HP.y), less(P.yz, K_y * HP.z), less(P.zz, K_z * HP.z)};
 }
 
-/// A lower triangular L with L L^T = a, for a that may be singular: pivots that rounding alone could have left are
-/// taken for zero.
+/// A lower triangular L with L L^T = a, where a may be singular: pivots at the level of rounding errors count as zero.
 inline Eigen::Matrix3d semidefinite_factor(const Symmetric3& a) {
   const double least = 1e-12 * std::max({a.xx, a.yy, a.zz, 0.0});
   const auto root = [least](double pivot) { return pivot > least ? std::sqrt(pivot) : 0.0; };

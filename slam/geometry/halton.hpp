@@ -12,7 +12,7 @@ double normal_quantile(double probability);
 double van_der_corput(int index, int base);
 
 /// Halton points 1 to `count` in bases 2, 3, 5, 7, 11, 13, 17, 19, mapped to independent standard normals: the fixed
-/// sample set of the quality test (SPEC I.9).
+/// sample set of the quality test (mathematics I.9).
 std::vector<Eigen::Matrix<double, 8, 1>> halton_normal_8d(int count);
 
 }  // namespace azimuth

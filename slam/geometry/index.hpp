@@ -1,5 +1,5 @@
 #pragma once
-// The library counts with unsigned numbers, Eigen and most of what is computed with signed ones.
+// Conversions between the unsigned counts of the standard library and the signed ones of Eigen and arithmetic.
 //
 // Thread contract: reentrant.
 
@@ -11,10 +11,10 @@ namespace azimuth {
 template <class T>
 concept Countable = std::is_integral_v<T> || std::is_enum_v<T>;
 
-/// An index or a count that is not negative, for containers of the library.
+/// Converts a non-negative index or count for containers of the standard library.
 constexpr std::size_t as_size(Countable auto count) { return static_cast<std::size_t>(count); }
 
-/// The same for matrices: it is Eigen::Index.
+/// Converts an index or count for Eigen's matrices; the type is Eigen::Index.
 constexpr std::ptrdiff_t as_index(Countable auto count) { return static_cast<std::ptrdiff_t>(count); }
 
 }  // namespace azimuth

@@ -1,6 +1,6 @@
 #pragma once
-// Rigid poses in the plane, named target first: T_world_body maps body coordinates into the world frame, and
-// T_world_body * T_body_camera = T_world_camera, adjacent names cancelling.
+// Rigid poses in the plane. A name gives the target frame first: T_world_body maps body coordinates into the world
+// frame, and T_world_body * T_body_camera = T_world_camera, where adjacent names cancel.
 
 #include <Eigen/Core>
 #include <cmath>
@@ -46,7 +46,7 @@ inline Eigen::Vector2d operator*(const Pose2& T_a_b, const Eigen::Vector2d& p_b)
   return {T_a_b.x_m + c * p_b.x() - s * p_b.y(), T_a_b.y_m + s * p_b.x() + c * p_b.y()};
 }
 
-/// The pose a fraction of the way from `start` (0) to `end` (1); heading the shorter way round.
+/// Interpolates between `start` (fraction 0) and `end` (1), with the heading the shorter way round.
 inline Pose2 interpolate(const Pose2& start, const Pose2& end, double fraction) {
   return {start.x_m + fraction * (end.x_m - start.x_m), start.y_m + fraction * (end.y_m - start.y_m),
           wrap(start.heading_rad + fraction * wrap(end.heading_rad - start.heading_rad))};

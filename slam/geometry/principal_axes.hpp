@@ -3,11 +3,11 @@
 
 namespace azimuth {
 
-/// Of a symmetric matrix, such as a covariance; only its lower triangle is read. Here and not at each use, since the
-/// compiler takes ten seconds, with sanitizers a minute, over each size of Eigen's solver.
+/// Eigenvalues and eigenvectors of a symmetric matrix, such as a covariance; only the lower triangle is read. The
+/// functions are compiled once here, since each size of Eigen's solver takes seconds to compile.
 struct PrincipalAxes {
   Eigen::Vector2d eigenvalues;  ///< ascending
-  Eigen::Matrix2d directions;   ///< unit vectors, one a column
+  Eigen::Matrix2d directions;   ///< unit eigenvectors, one per column
 };
 
 /// Thread contract: reentrant.

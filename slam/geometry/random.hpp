@@ -1,8 +1,8 @@
 #pragma once
-// Random numbers that are the same on every platform: the standard fixes the bits of its generators, but not what its
-// distributions make of them.
+// Random numbers that are equal on every platform. The standard fixes the bits of its generators, but not the results
+// of its distributions.
 //
-// Thread contract of all: thread-bound. The same seed gives the same numbers.
+// Thread contract of all classes: thread-bound. The same seed gives the same numbers.
 
 #include <array>
 #include <bit>
@@ -15,34 +15,34 @@
 
 namespace azimuth {
 
-/// 2^64 over the golden ratio, odd: its multiples are far apart.
+/// 2^64 divided by the golden ratio, made odd. Its multiples are far apart.
 inline constexpr std::uint64_t kGoldenBits = 0x9e3779b97f4a7c15U;
 
-/// Every bit of the word reaches every bit of the result, which no other word has (the finaliser of splitmix64).
+/// The finaliser of splitmix64: a bijection in which every bit of the word affects every bit of the result.
 constexpr std::uint64_t mixed_bits(std::uint64_t word) {
   word = (word ^ (word >> 30)) * 0xbf58476d1ce4e5b9U;
   word = (word ^ (word >> 27)) * 0x94d049bb133111ebU;
   return word ^ (word >> 31);
 }
 
-/// splitmix64: one word of state, any seed.
+/// The generator splitmix64, with one word of state; any seed is valid.
 class SplitMix {
  public:
   explicit SplitMix(std::uint64_t seed) : state_(seed) {}
 
   std::uint64_t operator()() { return mixed_bits(state_ += kGoldenBits); }
-  /// In [0, count); `count` positive and below 2^32.
+  /// Returns an index in [0, count); `count` must be positive and below 2^32.
   std::size_t index(std::size_t count) { return as_size((((*this)() >> 32) * count) >> 32); }
 
  private:
   std::uint64_t state_;
 };
 
-/// xoshiro256++ by Blackman & Vigna: better bits, and as quick.
+/// The generator xoshiro256++ by Blackman & Vigna: better statistical quality at the same speed.
 class Xoshiro {
  public:
   explicit Xoshiro(std::uint64_t seed) {
-    SplitMix words(seed);  // no seed leaves all four at zero
+    SplitMix words(seed);  // the state is never all zero, whatever the seed
     for (std::uint64_t& word : state_) word = words();
   }
 
@@ -62,18 +62,18 @@ class Xoshiro {
   std::array<std::uint64_t, 4> state_;
 };
 
-/// Distributions over the words of a generator: one of the above, or std::mt19937_64.
+/// Distributions that use the words of a generator: one of the above, or std::mt19937_64.
 template <class Bits>
 class RandomNumbers {
  public:
   explicit RandomNumbers(Bits bits) : bits_(std::move(bits)) {}
 
-  /// In [0, 1), 53 random bits.
+  /// Uniform in [0, 1), with 53 random bits.
   double uniform() { return static_cast<double>(bits_() >> 11) * 0x1p-53; }
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
 
-  /// Gaussian of mean 0; `sigma` may be 0. Draws the same amount whatever sigma is. By Marsaglia's polar method: two
-  /// independent normals from a point in the unit disc.
+  /// Gaussian of mean 0; `sigma` may be 0. The number of words drawn does not depend on sigma. Marsaglia's polar method
+  /// makes two independent normals from a point in the unit disc; the second is kept for the next call.
   double normal(double sigma = 1.0) {
     if (std::exchange(has_spare_, false)) return sigma * spare_;
     double x = 0.0, y = 0.0, square = 0.0;

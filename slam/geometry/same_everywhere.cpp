@@ -5,7 +5,8 @@
 namespace azimuth {
 namespace {
 
-/// Of log(erfc(x) exp(x^2) / t) in Chebyshev polynomials of 2 t - 1, where t = 2 / (2 + x) runs from 1 to 0.
+/// Coefficients of log(erfc(x) exp(x^2) / t) in Chebyshev polynomials of 2 t - 1, where t = 2 / (2 + x) runs from 1 to
+/// 0.
 constexpr std::array kCoefficients{
     -1.30265371978170941e+00, 6.41969792356490210e-01,  1.94764732041858360e-02,  -9.56151478680863226e-03,
     -9.46595344482036916e-04, 3.66839497852761447e-04,  4.25233248069077689e-05,  -2.02785781125342418e-05,
@@ -15,7 +16,7 @@ constexpr std::array kCoefficients{
     3.13092139934295813e-13,  -1.12708223613672523e-13, 3.81090525518923205e-16,  7.10609761360923712e-15,
     -1.52302820145710493e-15, -9.45749457128333370e-17, 1.21023718923939085e-16,  -2.81666308811874723e-17};
 
-/// Clenshaw's recurrence.
+/// Sums the Chebyshev series by Clenshaw's recurrence.
 double chebyshev_sum(double x) {
   double next = 0.0, after = 0.0;
   for (std::size_t i = kCoefficients.size() - 1; i > 0; --i) {

@@ -1,18 +1,20 @@
 #pragma once
-// What <cmath> has too, but with other last bits on arm64 than on x86: estimates are to be the same on both.
+// Functions that replace those of <cmath> whose last bits differ between arm64 and x86, so that estimates are equal on
+// both.
 
 #include <cmath>
 
 namespace azimuth {
 
-/// Length of the vector (a, b), in the type of its parts, which are neither near the largest numbers nor near the
-/// smallest.
+/// Length of the vector (a, b). The components must not be so large or so small that their squares overflow or
+/// underflow.
 template <typename Real>
 Real hypotenuse(Real a, Real b) {
   return std::sqrt(a * a + b * b);
 }
 
-/// 1 - erf(x), to a relative 1e-14 down to 1e-300: twice the chance that a normal variable lies above sqrt(2) x sigma.
+/// 1 - erf(x), with a relative error of 1e-14 for values down to 1e-300: twice the probability that a standard normal
+/// variable exceeds sqrt(2) x.
 double complementary_error(double x);
 
 }  // namespace azimuth

@@ -1,5 +1,5 @@
 #pragma once
-// A direction that was measured, and how far another one is off it: without a singularity at the zenith.
+// A measured direction, and the residual of a predicted direction, without a singularity at the zenith.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -8,12 +8,14 @@
 
 namespace azimuth {
 
-/// A direction as measured, with a plane that touches the unit sphere there. Two axes of that plane, across (towards
-/// growing azimuth) and along (away from the zenith), carry independent errors; near the zenith, where azimuths mean
-/// little, the error across stays as finite as the pixel's.
+/// A measured direction, with the tangent plane of the unit sphere at it. The plane's two axes, across (towards growing
+/// azimuth) and along (away from the zenith), have independent errors. Near the zenith, where azimuths are ill-defined,
+/// the error across remains as small as the pixel's.
+///
+/// A lamp is given by m, its horizontal offset from the camera per metre of height.
 class TangentDirection {
  public:
-  /// In the robot's frame. `variance` of (azimuth, zenith angle) [rad^2].
+  /// The direction is in the robot's frame. `variance_rad2` is the variance of (azimuth, zenith angle) [rad^2].
   TangentDirection(double azimuth_rad, double zenith_rad, const Eigen::Vector2d& variance_rad2)
       : towards_(std::sin(zenith_rad) * std::cos(azimuth_rad), std::sin(zenith_rad) * std::sin(azimuth_rad),
                  std::cos(zenith_rad)),
@@ -22,13 +24,13 @@ class TangentDirection {
                -std::sin(zenith_rad)),
         variance_(std::pow(std::sin(zenith_rad), 2) * variance_rad2.x(), variance_rad2.y()) {}
 
-  /// Of (across, along) [rad^2].
+  /// Variance of (across, along) [rad^2].
   const Eigen::Vector2d& variance() const { return variance_; }
-  /// What else makes it uncertain, likewise.
+  /// Adds variance of (across, along) [rad^2].
   void add_variance(const Eigen::Vector2d& variance_rad2) { variance_ += variance_rad2; }
   double zenith_cosine() const { return towards_.z(); }
   double zenith_sine() const { return towards_.head<2>().norm(); }
-  /// m of this very direction; it must be above the horizon.
+  /// m of the measured direction, which must be above the horizon.
   Eigen::Vector2d offset_per_metre() const { return towards_.head<2>() / towards_.z(); }
   /// d(offset per metre) / d(across, along).
   Eigen::Matrix2d offset_by_error() const {
@@ -38,13 +40,13 @@ class TangentDirection {
     return by_error;
   }
 
-  /// Measured minus predicted, in the plane.
+  /// Measured minus predicted direction, in the tangent plane.
   struct Residual {
     Eigen::Vector2d innovation;  ///< (across, along) [rad, for small ones]
     Eigen::Matrix2d by_offset;   ///< d(prediction) / dm
     Eigen::RowVector2d stretch;  ///< d(log of the length of (m, 1) along the measured direction) / dm
   };
-  /// Of a lamp predicted at m; nothing when that is a right angle away or more.
+  /// Residual of a lamp predicted at m; empty when the prediction is a right angle or more away.
   /* M = (m, 1), t = towards . M: prediction = (across . M, along . M) / t */
   std::optional<Residual> against(const Eigen::Vector2d& m) const {
     const Eigen::Vector3d M(m.x(), m.y(), 1.0);

@@ -3,13 +3,13 @@
 
 namespace azimuth {
 
-/// Storage for matrices of varying size that is kept from use to use: it allocates only when a larger one than ever
-/// before is asked for. (Eigen's resize() allocates whenever the number of elements changes.)
+/// Reusable storage for matrices of varying size. It allocates only for a larger matrix than ever before, whereas
+/// Eigen's resize() allocates whenever the number of elements changes.
 ///
 /// Thread contract: thread-bound.
 class Workspace {
  public:
-  /// Uninitialised; the previous content is lost.
+  /// Returns an uninitialised matrix; the previous content is lost.
   Eigen::Map<Eigen::MatrixXd> matrix(Eigen::Index rows, Eigen::Index columns) {
     return {storage(rows * columns), rows, columns};
   }

@@ -1,24 +1,26 @@
 #pragma once
-// When a drive contradicts a rig, whichever estimator finds it (SPEC VI.33).
+// Constants and odds for deciding that a drive contradicts the rig, common to all estimators (mathematics VI.33).
 
 #include <cmath>
 
 namespace azimuth {
 
-/// How far off a rig is that is wrong, as standard deviations: a camera put on by eye, an odometer of another robot's,
-/// a buffer on the way.
+/// Standard deviations of the errors of a wrong rig: a camera mounted by eye, the odometer of another robot, a buffer
+/// that delays samples.
 namespace wrong_rig {
 inline constexpr double kScaleTurn = 0.3, kDrift_rad_per_m = 0.05, kYaw_rad = 0.1, kLag_s = 0.3, kCamera_m = 0.3;
 }
 
-/// One value of a rig in twenty is wrong, and that one is takes odds of twenty to one to be acted upon.
+/// ln of the odds needed to treat a value of the rig as wrong: one value in twenty is wrong, and acting on it takes
+/// odds of twenty to one.
 inline constexpr double kLogOddsToDoubt = 6.0;
-/// Errors that several bearings share make a filter seem to know more than it does: drives without a lag had one that
-/// was up to 4.7 standard deviations off.
+/// Error, in a filter's own standard deviations, below which the rig is not contradicted. Errors that several bearings
+/// share make a filter's covariance too small.
 inline constexpr double kCertainOfRig_sigmas = 6.0;
 
-/// Logarithm of how much likelier all measurements are if a calibration is known to `wide` before than to `narrow`,
-/// when it has come out as `mean` with `variance` by a prior of `prior`: all standard deviations but that. Reentrant.
+/// ln of the likelihood ratio of all measurements for a prior standard deviation of `wide` against `narrow`, for a
+/// calibration value that was estimated as `mean` with `variance` under a prior standard deviation of `prior`.
+/// Reentrant.
 inline double log_evidence(double mean, double variance, double prior, double wide, double narrow) {
   const double told = 1.0 / variance - 1.0 / (prior * prior), pull = mean / variance;
   const auto log_likelihood = [&](double sigma) {

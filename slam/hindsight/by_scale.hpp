@@ -3,9 +3,9 @@
 
 namespace azimuth {
 
-/// What an error of the scale of all distances adds to the covariance of a place, `sigma_scale` being its standard
-/// deviation. A map twice as large, driven through twice as far, looks the same: such an error moves everything away
-/// from where the map begins, in proportion.
+/// Covariance that an error in the scale of all distances adds to a position; `sigma_scale` is the standard deviation
+/// of the scale. Bearings cannot reveal this error: a larger map with a longer path gives the same bearings. The error
+/// moves each position away from the map's origin in proportion to its distance.
 inline Eigen::Matrix2d by_scale(double sigma_scale, const Eigen::Vector2d& p_map) {
   return sigma_scale * sigma_scale * p_map * p_map.transpose();
 }

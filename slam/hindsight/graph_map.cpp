@@ -8,7 +8,7 @@
 namespace azimuth {
 namespace {
 
-/// Of the camera as it was saved.
+/// Covariance of the camera entries of the saved map.
 Eigen::MatrixXd camera_covariance(const MapSnapshot& map) {
   const Eigen::Index size = as_index(map.camera.size());
   Eigen::MatrixXd P(size, size);
@@ -18,7 +18,7 @@ Eigen::MatrixXd camera_covariance(const MapSnapshot& map) {
   return P;
 }
 
-/// Where an entry of pose and landmarks goes when the camera's stand between.
+/// Index of an entry of pose or landmarks in a covariance that has the camera's entries between pose and landmarks.
 Eigen::Index behind_camera(Eigen::Index entry, Eigen::Index camera) { return entry < 3 ? entry : entry + camera; }
 
 }  // namespace
@@ -28,7 +28,7 @@ bool place_by_graph(const Mapper& mapper, std::span<const LandmarkId> in_graph, 
   std::vector<Smoother::Unknown> unknowns{Smoother::PoseOf{graph.poses() - 1}};
   for (const LandmarkId landmark : in_graph) unknowns.emplace_back(Smoother::LandmarkOf{landmark});
   const Eigen::MatrixXd in_chart = mapper.smoother().covariance(unknowns);
-  if (in_chart.rows() != 3 + 2 * as_index(in_graph.size())) return false;  // the first pose, which is a constant
+  if (in_chart.rows() != 3 + 2 * as_index(in_graph.size())) return false;  // the only pose is the first one, a constant
   const MovedPose moved = apply(graph.pose(graph.poses() - 1), mapper.since_anchor());
   Eigen::MatrixXd to_points = Eigen::MatrixXd::Identity(in_chart.rows(), in_chart.cols());
   to_points.topLeftCorner<3, 3>() = moved.G;

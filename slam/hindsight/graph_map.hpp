@@ -6,9 +6,9 @@
 
 namespace azimuth {
 
-/// Puts the robot and the landmarks of `out`, which are `in_graph` in their order, where the graph has them, with their
-/// joint covariance. What `out` says of the camera keeps its own, and has nothing to do with the rest. False, with
-/// `out` unspecified: the graph says nothing of one of them.
+/// Sets the robot's pose and the landmarks of `out` to the graph's estimates, with their joint covariance. `in_graph`
+/// has the graph's number of each landmark of `out`. The camera entries of `out` keep their covariance and become
+/// uncorrelated with the rest. Returns false, with `out` unspecified, when the graph does not know one of them.
 bool place_by_graph(const Mapper& mapper, std::span<const LandmarkId> in_graph, MapSnapshot& out);
 
 }  // namespace azimuth

@@ -3,42 +3,45 @@
 
 namespace azimuth {
 
-/// The smoother as an estimator (SPEC VI.18 to VI.20): what it takes from the rig is not here.
+/// Settings of the smoother estimator (mathematics VI.18 to VI.20), besides the values of the rig.
 struct HindsightSettings {
-  bool names = true;  ///< believe the names that the rig's bearings carry; false: as if they carried none
-  /// What the rig says of odometer and camera is believed as well as it says until the drive contradicts it, and noise
-  /// is what bearings and odometry show, where landmarks have names; false: the rig is always believed.
+  bool names = true;  ///< use the identities of bearings; false: ignore them
+  /// Whether the rig's calibration may be contradicted by the drive, and the noise adapted to the residuals, where
+  /// landmarks have identities; false: the rig is always believed.
   bool doubt_rig = true;
-  /// Its scale of distance, which no bearing tells, may be off by the rig's sigma_scale_distance; false: it is exact.
+  /// Whether covariances include the rig's sigma_scale_distance, an error that bearings cannot reveal; false: the scale
+  /// is taken as exact.
   bool consider_distance = true;
 
-  // Which bearings are used (SPEC part V)
-  double thinning_s = 0.5;           ///< at most one bearing of a named landmark in this time
-  double nameless_thinning_s = 0.4;  ///< of bearings without names, at most one image in this time
-  int replant_after = 5;             ///< misfits in a row after which a named landmark is looked for anew; 0: never
-  int confirm_after_bearings = 3;    ///< a landmark of fewer is not published
+  // Which bearings are used (mathematics part V)
+  double thinning_s = 0.5;           ///< at most one bearing per identified landmark in this time
+  double nameless_thinning_s = 0.4;  ///< without identities, at most one image in this time
+  /// Consecutive misfits after which an identified landmark is initialised anew; 0: never
+  int reinitialise_after = 5;
+  int confirm_after_bearings = 3;  ///< a landmark with fewer bearings is not published
 
-  // Landmarks seen for the first time
+  // Prior of new landmarks
   double inverse_depth_mean_per_m = 0.1;
   double inverse_depth_sigma_per_m = 0.5;
 
-  // How far bearings that fit badly are listened to
-  RobustKernel kernel = RobustKernel::cauchy;  ///< of named landmarks; hypotheses differ in theirs
+  // Weight of outliers
+  RobustKernel kernel = RobustKernel::cauchy;  ///< with identities; hypotheses have kernels of their own
   double kernel_width = 3.0;                   ///< standard deviations
 
-  /// Of named landmarks, a second member goes beside that listens less to bearings that fit badly; the one with the
-  /// lower energy speaks.
+  /// With identities, whether a second member with a stricter kernel runs in parallel. The member with the lower energy
+  /// gives the results.
   bool several = true;
 
-  int max_iterations = 4;  ///< of the solution, for each image
+  int max_iterations = 4;  ///< of the optimisation, per image
 
   // Long drives
-  /// Of more poses with bearings those are forgotten that are worth least, unless landmarks need them; 0: none.
+  /// Limit on the number of poses (keyframes). Beyond it, the least valuable poses are removed, unless landmarks need
+  /// them; 0: no limit.
   int max_keyframes = 1500;
-  int nameless_max_keyframes = 300;  ///< likewise, of bearings without names, for each hypothesis
+  int nameless_max_keyframes = 300;  ///< the same limit for each hypothesis without identities
 
-  int members = 0;  ///< hypotheses followed side by side where bearings have no names; 0: as many as the view asks for
-  int threads = 1;  ///< that look after them, in the daemon; the estimates are the same with any number
+  int members = 0;  ///< number of hypotheses without identities; 0: depends on the field of view
+  int threads = 1;  ///< number of threads for the hypotheses in the daemon; it does not change the estimates
 
   friend bool operator==(const HindsightSettings&, const HindsightSettings&) = default;
 };

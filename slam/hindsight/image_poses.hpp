@@ -8,23 +8,24 @@
 
 namespace azimuth {
 
-/// Where each image was taken, by the pose of the graph before it: so that it can be told again when that has moved.
+/// The pose of each image, stored relative to the graph's pose before it, so that it can be recomputed after the
+/// graph's poses have moved.
 ///
 /// Thread contract: thread-bound.
 class ImagePoses {
  public:
-  /// The image of the mapper's last update().
+  /// Adds the image of the mapper's last update().
   void add(Stamp stamp, const Mapper& mapper);
   std::size_t size() const { return images_.size(); }
-  /// Forgets all but the first so many.
+  /// Removes all but the first `size` images.
   void truncate(std::size_t size);
-  /// All of them, as they are known now.
+  /// Writes the current estimates of all poses.
   void write(const Mapper& mapper, std::vector<PastPose>& out) const;
-  /// The first image behind each pose of the graph, by the likeliest path.
+  /// Writes the most likely pose of the first image after each pose of the graph.
   void write_path(const Mapper& mapper, std::vector<PathPose>& out) const;
 
  private:
-  /// There are many, so of the motion there is only what is needed.
+  /// A compact entry without the parts of the motion that are not needed.
   struct Image {
     Stamp stamp{};
     Pose2 T_anchor_body;
@@ -34,7 +35,7 @@ class ImagePoses {
   static Motion since_anchor(const Image& image);
 
   std::vector<Image> images_;
-  std::vector<std::size_t> keyframes_;  // first image behind each pose of the graph that has one
+  std::vector<std::size_t> keyframes_;  // first image after each pose of the graph, if any
 };
 
 }  // namespace azimuth

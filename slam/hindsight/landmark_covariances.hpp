@@ -9,20 +9,21 @@
 
 namespace azimuth {
 
-/// How uncertain landmarks are, for what is said after each image. One takes some microseconds, so of a large map some
-/// are computed anew with each image, and all in turn: what is known of a landmark hardly changes within seconds.
+/// Covariances of the landmarks for the estimate after each image. One covariance takes some microseconds, so in a
+/// large map each image recomputes only some of them, in turn; a landmark's covariance hardly changes within seconds.
 ///
 /// Thread contract: thread-bound.
 class LandmarkCovariances {
  public:
-  /// Up to so many are computed when they are asked for, as of the moment.
+  /// Up to this number of landmarks, covariances are computed on request and are exact.
   static constexpr std::size_t kEachTime = 256;
 
-  /// An image has been used: computes the next ones, when there are many. All are points.
+  /// Must be called after an image was used. Recomputes the next covariances if there are many landmarks. All landmarks
+  /// must be points.
   void refresh(std::span<const HindsightLandmark> landmarks, const Smoother& smoother);
-  /// Of (x, y) in the map [m^2], as of the last few images.
+  /// Covariance of (x, y) in the map [m^2], as of one of the last images.
   Eigen::Matrix2d of(const HindsightLandmark& landmark, const Smoother& smoother) const;
-  /// The map has become another.
+  /// Must be called when the map was replaced.
   void forget() { kept_.clear(); }
 
  private:
@@ -30,8 +31,8 @@ class LandmarkCovariances {
     LandmarkId in_graph = kOfNothing;
     Eigen::Matrix2d covariance_m2 = Eigen::Matrix2d::Zero();
   };
-  std::unordered_map<std::int64_t, Kept> kept_;  // by the landmarks' ids
-  std::size_t next_ = 0;                         // whose turn it is
+  std::unordered_map<std::int64_t, Kept> kept_;  // by landmark id
+  std::size_t next_ = 0;                         // next landmark to recompute
 };
 
 }  // namespace azimuth

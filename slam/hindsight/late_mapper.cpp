@@ -5,9 +5,9 @@
 namespace azimuth {
 namespace {
 
-// Images farther apart than this are few enough to be looked at as they come.
+// Images farther apart than this are processed as they arrive.
 constexpr double kFarApart_s = 0.3;
-// From the newest image of a piece of work to the image that waits for what came of it.
+// Time from the newest image of a batch to the image that waits for the batch's results.
 constexpr double kLate_s = 0.2;
 
 void add(const UpdateOutcome& more, UpdateOutcome& to) {
@@ -21,8 +21,8 @@ void add(const UpdateOutcome& more, UpdateOutcome& to) {
 
 }  // namespace
 
-LateMapper::LateMapper(std::unique_ptr<Mapper> mapper, std::unique_ptr<Errand> errand)
-    : mapper_(std::move(mapper)), errand_(std::move(errand)) {
+LateMapper::LateMapper(std::unique_ptr<Mapper> mapper, std::unique_ptr<TaskRunner> runner)
+    : mapper_(std::move(mapper)), runner_(std::move(runner)) {
   learn(known_);
 }
 
@@ -58,7 +58,7 @@ UpdateOutcome LateMapper::update(const BearingSet& set) {
 
 void LateMapper::look_at_waiting() {
   under_way_ = std::exchange(waiting_, {});
-  errand_->begin([this] {
+  runner_->begin([this] {
     next_.heard = {};
     next_.bearings.clear();
     for (const Waiting& image : under_way_) {
@@ -70,12 +70,12 @@ void LateMapper::look_at_waiting() {
   });
 }
 
-/// What came of the images that were under way is known now.
+/// Waits for the running batch and takes over its results.
 void LateMapper::adopt() {
-  errand_->finish();
+  runner_->finish();
   begun_.reset();
   std::swap(known_, next_);
-  for (HeardBearing& bearing : known_.bearings) bearing.of_last_image = under_way_.size() == after_known_.size();
+  for (UsedBearing& bearing : known_.bearings) bearing.of_last_image = under_way_.size() == after_known_.size();
   heard_.insert(heard_.end(), known_.bearings.begin(), known_.bearings.end());
   after_known_.erase(after_known_.begin(), after_known_.begin() + static_cast<std::ptrdiff_t>(under_way_.size()));
 }
@@ -95,7 +95,7 @@ void LateMapper::place(const PoseGaussian& robot) {
   heard_.clear();
 }
 
-/// All images that wait are looked at first.
+/// Processes all waiting images first.
 void LateMapper::conclude() {
   look_at_all();
   mapper_->conclude();
@@ -127,7 +127,7 @@ Motion LateMapper::since_anchor() const {
 }
 
 PoseGaussian LateMapper::past(PoseNumber number) const {
-  errand_->finish();
+  runner_->finish();
   return mapper_->past(number);
 }
 

@@ -3,31 +3,31 @@
 #include <optional>
 #include <vector>
 
-#include "slam/hindsight/errand.hpp"
 #include "slam/hindsight/mapper.hpp"
+#include "slam/hindsight/task_runner.hpp"
 
 namespace azimuth {
 
-/// A mapper that takes its time beside the thread that asks for the pose: what it makes of images is known some images
-/// later, and odometry bridges what lies between.
+/// Runs a slow mapper beside the thread that asks for the pose. The mapper's results are available some images later;
+/// odometry bridges the gap.
 ///
-/// How much later depends on the images' stamps alone, never on how fast the machine is, so a replay gives the same
-/// bits: whoever asks too early waits. Images that are far apart leave time enough, and are not late at all.
+/// The delay depends on the images' stamps alone, never on the speed of the machine, so a replay gives the same bits: a
+/// caller that asks too early waits. Images that are far apart are processed without delay.
 ///
-/// Thread contract: thread-bound. The mapper behind it is used by the errand's thread, and by none other meanwhile.
+/// Thread contract: thread-bound. While the background task runs, only its thread uses the mapper.
 class LateMapper final : public Mapper {
  public:
-  LateMapper(std::unique_ptr<Mapper> mapper, std::unique_ptr<Errand> errand);
-  ~LateMapper() override { errand_->finish(); }
+  LateMapper(std::unique_ptr<Mapper> mapper, std::unique_ptr<TaskRunner> runner);
+  ~LateMapper() override { runner_->finish(); }
 
   bool remember(const MapSnapshot& map, const std::optional<Eigen::Matrix3d>& moved) override;
   void predict(const Motion& motion) override;
   UpdateOutcome update(const BearingSet& set) override;
-  /// All images that wait are of before, and are looked at first.
+  /// Processes all waiting images first, since they were taken before this pose.
   void place(const PoseGaussian& robot) override;
 
   PoseGaussian pose() const override;
-  std::span<const HeardBearing> heard() const override { return heard_; }
+  std::span<const UsedBearing> heard() const override { return heard_; }
   std::span<const HindsightLandmark> landmarks() const override { return known_.landmarks; }
   std::int64_t next_id() const override { return known_.next_id; }
   const Smoother& smoother() const override { return *known_.smoother; }
@@ -40,15 +40,15 @@ class LateMapper final : public Mapper {
   std::optional<Scene> scene() const override { return known_.scene; }
 
  private:
-  /// An image that has not been looked at, and the way there from the one before.
+  /// An image that is not yet processed, and the motion from the image before it.
   struct Waiting {
     Motion motion;
     BearingSet set;
   };
-  /// What the mapper makes of all up to an image.
+  /// The mapper's results up to an image.
   struct Known {
-    UpdateOutcome heard;  ///< of all images since the last time
-    std::vector<HeardBearing> bearings;
+    UpdateOutcome heard;  ///< of all images since the last results
+    std::vector<UsedBearing> bearings;
     std::vector<HindsightLandmark> landmarks;
     std::int64_t next_id = 0;
     std::optional<Smoother> smoother;
@@ -65,14 +65,14 @@ class LateMapper final : public Mapper {
   void learn(Known& known) const;
 
   std::unique_ptr<Mapper> mapper_;
-  std::unique_ptr<Errand> errand_;
+  std::unique_ptr<TaskRunner> runner_;
   std::vector<Waiting> waiting_, under_way_;
   std::size_t count_waiting_ = 0;
   std::optional<Stamp> last_image_, begun_;
-  Motion since_waiting_;  ///< since the newest image that waits
+  Motion since_waiting_;  ///< since the newest waiting image
   Known known_, next_;
-  std::vector<HeardBearing> heard_;  ///< told once
-  std::vector<Motion> after_known_;  ///< one for each image after the one that is known
+  std::vector<UsedBearing> heard_;   ///< bearings not yet reported
+  std::vector<Motion> after_known_;  ///< one per image after the last one with results
 };
 
 }  // namespace azimuth

@@ -20,7 +20,7 @@ constexpr CalibrationPriors kIfWrong{.sigma_scale_turn = wrong_rig::kScaleTurn,
                                      .sigma_camera_yaw_rad = wrong_rig::kYaw_rad,
                                      .sigma_lag_s = wrong_rig::kLag_s,
                                      .sigma_camera_m = wrong_rig::kCamera_m};
-constexpr double kStricterKernel = 2.0 / 3.0;  // times the width: of the member that listens less to bad bearings
+constexpr double kStricterKernel = 2.0 / 3.0;  // factor on the kernel width of the second member
 
 SmootherSettings graph_settings(const Rig& rig, const HindsightSettings& settings) {
   SmootherSettings graph;
@@ -46,14 +46,14 @@ KnownNamesSettings names_settings(const Rig& rig, const HindsightSettings& setti
   names.smoother = graph_settings(rig, settings);
   names.sigma_bearing_rad = rig.camera.sigma_bearing_rad;
   names.thinning_s = settings.thinning_s;
-  names.replant_after = settings.replant_after;
+  names.reinitialise_after = settings.reinitialise_after;
   names.max_keyframes = settings.max_keyframes;
   names.floors = floors_of(rig.odometry);
   if (settings.doubt_rig) names.doubts = {.if_wrong = kIfWrong, .noise = true};
   return names;
 }
 
-/// Several members, which listen to bad bearings in different ways, where that is asked for.
+/// Makes a mapper for landmarks with identities. If `several` is set, it has a second member with a stricter kernel.
 std::unique_ptr<Mapper> named_mapper(const Rig& rig, const HindsightSettings& settings) {
   const KnownNamesSettings names = names_settings(rig, settings);
   std::vector<KnownNamesSettings> members{names};
@@ -64,7 +64,7 @@ std::unique_ptr<Mapper> named_mapper(const Rig& rig, const HindsightSettings& se
   return std::make_unique<NamedMapper>(members, settings.confirm_after_bearings);
 }
 
-/// The less an image shows the more of them it takes to tell places apart.
+/// Number of images to keep. The smaller the field of view, the more images are needed to tell places apart.
 int kept_images(int of_all_round, const Scene& scene) {
   return static_cast<int>(std::lround(of_all_round * scene.images_for_all_round()));
 }
@@ -79,7 +79,7 @@ std::unique_ptr<Mapper> nameless_mapper(const Rig& rig, const HindsightSettings&
   nameless.sigma_scale_distance = rig.odometry.sigma_scale_distance;
   nameless.sigma_scale_turn = rig.odometry.sigma_scale_turn;
   return std::make_unique<LateMapper>(
-      std::make_unique<NamelessMapper>(nameless, helpers.make_workers(settings.threads)), helpers.make_errand());
+      std::make_unique<NamelessMapper>(nameless, helpers.make_workers(settings.threads)), helpers.make_task_runner());
 }
 
 double considered_scale(const Rig& rig, const HindsightSettings& settings) {

@@ -8,36 +8,35 @@
 #include "slam/estimator/health_settings.hpp"
 #include "slam/estimator/map_start.hpp"
 #include "slam/estimator/rig.hpp"
-#include "slam/hindsight/errand.hpp"
 #include "slam/hindsight/hindsight_settings.hpp"
+#include "slam/hindsight/task_runner.hpp"
 #include "slam/hypotheses/workers.hpp"
 #include "slam/localisation/relocalisation_settings.hpp"
 
 namespace azimuth {
 
-/// Makes who does the work beside the thread that asks for the pose, where there is enough of it. Whoever it is, the
-/// estimates are the same.
+/// Factories of the workers that run beside the thread that asks for the pose. Estimates do not depend on them.
 struct Helpers {
-  /// Of hypotheses, side by side, on so many threads.
+  /// Makes the workers that process hypotheses in parallel on `threads` threads.
   std::function<std::unique_ptr<Workers>(int threads)> make_workers = [](int /*threads*/) {
     return std::make_unique<InTurn>();
   };
-  /// Of all of them, while the pose goes on by odometry.
-  std::function<std::unique_ptr<Errand>()> make_errand = [] { return std::make_unique<AtOnce>(); };
+  /// Makes the background task that processes all hypotheses while odometry extrapolates the pose.
+  std::function<std::unique_ptr<TaskRunner>()> make_task_runner = [] { return std::make_unique<AtOnce>(); };
 };
 
-/// The smoother over landmarks in the plane: by their names where the rig's bearings carry some, by hypotheses where
-/// not.
+/// Makes the smoother estimator for landmarks in the plane. It uses identities if the rig's bearings carry them,
+/// otherwise hypotheses.
 std::unique_ptr<Estimator> make_smoother_estimator(const Rig& rig, const HindsightSettings& settings,
                                                    const MapStart& start = {}, const HealthSettings& health = {},
                                                    const RelocalisationSettings& relocalisation = {},
                                                    const Helpers& helpers = {});
 
-/// Any filter for that rig, and a graph of what it accepts: see WithHindsight.
+/// Combines a filter for that rig with a graph of the bearings that the filter accepts: see WithHindsight.
 std::unique_ptr<Estimator> make_with_hindsight(std::unique_ptr<Estimator> filter, const Rig& rig,
                                                const HindsightSettings& settings);
 
-/// Why it cannot start from `map`; nothing: it can.
+/// The reason why the smoother estimator cannot start from `map`; empty if it can.
 std::optional<std::string_view> why_unfit_for_smoother(const MapSnapshot& map, const Rig& rig,
                                                        const HindsightSettings& settings, const MapStart& start);
 

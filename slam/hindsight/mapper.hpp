@@ -18,90 +18,91 @@
 
 namespace azimuth {
 
-/// Of a solution that has all the time there is: many times what any drive has needed.
+/// Maximum number of iterations of the final optimisation; no drive needs nearly as many.
 inline constexpr int kIterationsToTheEnd = 200;
 
-/// A landmark, by what it is called outside and in the graph.
+/// A landmark with its published id and its number in the graph.
 struct HindsightLandmark {
   std::int64_t id = 0;  ///< see LandmarkEstimate
   Identity identity = kUnknownIdentity;
   Kind kind = kAnyKind;
   LandmarkId in_graph = 0;
-  std::uint64_t sightings = 0;  ///< bearings that are of it, by now and before the start
+  std::uint64_t sightings = 0;  ///< number of bearings, those before the start included
   bool recalled = false;        ///< from a saved map
 };
 
-/// A bearing of the last image that is used, as the graph explains it now.
-struct HeardBearing {
+/// A used bearing, and how the current graph explains it.
+struct UsedBearing {
   std::int64_t landmark_id = 0;
   double azimuth_rad = 0.0;  ///< in the robot's frame
   double sigma_rad = 0.0;
-  bool established = false;   ///< the landmark had been seen often enough to be expected
-  bool of_last_image = true;  ///< else it was heard before, and is told only now
-  bool agrees = false;        ///< else the robust kernel hardly listens to it
+  bool established = false;   ///< the landmark had enough bearings to be expected
+  bool of_last_image = true;  ///< otherwise the bearing is of an earlier image and reported late
+  bool agrees = false;        ///< otherwise the robust kernel gives it little weight
 };
 
-/// What became of the bearings of one image.
+/// What update() did with the bearings of one image.
 struct UpdateOutcome {
-  bool used = false;  ///< it made a pose, or added to the newest one
+  bool used = false;  ///< the image made a pose or added bearings to the newest pose
   std::size_t created = 0, deleted = 0, thinned = 0, ambiguous = 0, recovered = 0;  ///< as in AssociationCounts
 };
 
-/// Path and map by everything heard so far. Which bearing is of which landmark is found out in one way or another; that
-/// is where mappers differ.
+/// Path and map from all measurements so far. Mappers differ in how they decide the data association.
 ///
-/// Azimuths are in the robot's frame. What is returned by reference stands until the next update(). Thread contract:
+/// Azimuths are in the robot's frame. References that are returned stay valid until the next update(). Thread contract:
 /// thread-bound.
 class Mapper {
  public:
   virtual ~Mapper() = default;
 
-  /// Begins from a saved map, before anything else, with the robot where the map saw it last, give or take `moved`
-  /// (covariance of (x, y, heading)), or nobody knows where. False: it cannot, and begins from nothing.
+  /// Starts from a saved map; this must be the first call. With `moved`, the robot is at its pose in the map, with that
+  /// additional covariance of (x, y, heading); without, its pose is unknown. Returns false when the mapper cannot do
+  /// so; it then starts from an empty map.
   virtual bool remember(const MapSnapshot& /*map*/, const std::optional<Eigen::Matrix3d>& /*moved*/) { return false; }
 
-  /// The robot moved, before the next update().
+  /// Adds a motion of the robot before the next update().
   virtual void predict(const Motion& motion) = 0;
-  /// The bearings of the instant that predict() led to.
+  /// Adds the bearings taken at the pose that predict() has led to.
   virtual UpdateOutcome update(const BearingSet& set) = 0;
-  /// Path and map as they are now can be come back to.
+  /// Stores the current path and map for return_to_bookmark().
   virtual void bookmark() {}
-  /// What was heard since the bookmark was heard somewhere else: it is forgotten, and how the robot moved with it, so
-  /// place() is to follow.
+  /// Restores path and map as of the bookmark, for a robot that was somewhere else since then. Bearings and motions
+  /// since the bookmark are discarded, so the caller must call place() afterwards.
   virtual void return_to_bookmark() {}
-  /// The robot is here, whatever odometry has said since the newest pose: covariance of (x, y, heading) in the map.
-  /// Where nothing can be found out but by following the robot, it does nothing.
+  /// Sets the robot's pose, with its covariance of (x, y, heading) in the map, and discards the odometry since the
+  /// newest pose. The default implementation ignores the call.
   virtual void place(const PoseGaussian& /*robot*/) {}
 
-  /// Of the last image, by all up to it.
+  /// Pose at the last image, given everything up to it.
   virtual PoseGaussian pose() const = 0;
-  /// Bearings of the last image, or of some before, that are of landmarks: each is told once.
-  virtual std::span<const HeardBearing> heard() const = 0;
-  /// Landmarks that bearings are of.
+  /// Associated bearings of the last image, or of earlier ones. Each bearing is reported once.
+  virtual std::span<const UsedBearing> heard() const = 0;
+  /// Landmarks that have bearings.
   virtual std::span<const HindsightLandmark> landmarks() const = 0;
-  /// No landmark has had this id or a higher one.
+  /// An id above those of all landmarks so far.
   virtual std::int64_t next_id() const = 0;
-  /// The likeliest path and map.
+  /// The most likely path and map.
   virtual const Smoother& smoother() const = 0;
-  /// Of the poses that its graph has, ascending: it may have forgotten some that arrived.
+  /// Numbers of the poses that the graph still has, ascending.
   virtual const std::vector<PoseNumber>& numbers() const = 0;
-  /// What is known now of a pose that the graph has or had.
+  /// Current estimate of a pose that the graph has or had.
   virtual PoseGaussian past(PoseNumber number) const = 0;
-  /// Where one is now that the graph still has, which is known at once; nothing: it has been forgotten.
+  /// Current position of a pose that the graph still has, without computing its covariance; empty when the graph has
+  /// removed it.
   std::optional<Pose2> kept_pose(PoseNumber number) const;
-  /// Nothing more will come: what smoother() and past() tell is solved until nothing changes.
+  /// Ends the drive: optimises what smoother() and past() return until convergence.
   virtual void conclude() = 0;
-  /// The pose of the graph that the last image's lies behind, its newest one, and how, noise included.
+  /// The newest pose of the graph, and the motion from it to the last image, noise included.
   virtual PoseNumber anchor() const = 0;
   virtual Motion since_anchor() const = 0;
 
-  /// What it goes by of the rig; nothing: the rig as it is.
+  /// The rig belief that the mapper uses; empty: the rig unchanged.
   virtual std::optional<RigBelief> rig() const { return std::nullopt; }
 
-  /// What it has learnt of how much is seen of what stands there; nothing: it does not ask.
+  /// The detection model that the mapper has learned; empty: it learns none.
   virtual std::optional<Scene> scene() const { return std::nullopt; }
 
-  /// Why what pose() says is not to be relied on, though nothing contradicts it; nothing: it is.
+  /// A reason why pose() is not to be relied on although no measurement contradicts it; empty: none.
   virtual std::optional<Judgement> doubt() const { return std::nullopt; }
 };
 

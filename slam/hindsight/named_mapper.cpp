@@ -9,11 +9,12 @@ namespace {
 
 constexpr int kImagesBetweenChoices = 10;
 constexpr int kJudgementsInGraph = 10;
-constexpr double kNoCamera = 5.0;  // times as noisy as the rig says: names are wrong, or all of it is
-// What a bearing costs that is of nothing: the logarithm of the odds that a name is right, at the best place, against
-// one wrong name in twenty from anywhere.
+// Factor on the rig's bearing noise beyond which identities, or all bearings, must be wrong
+constexpr double kNoCamera = 5.0;
+// Cost of an outlier: ln of the odds of a right identity, at zero residual, against a wrong one, with one wrong
+// identity in twenty spread over all directions.
 constexpr double kOfNothingCosts = 7.5;
-constexpr double kBetterBy = 12.0;  // than the member that speaks; energies of minima that are one differ by rounding
+constexpr double kBetterBy = 12.0;  // fall of the energy needed to change members; equal minima differ by rounding
 constexpr double kHopelessBy = 20.0;
 
 }  // namespace
@@ -40,7 +41,7 @@ UpdateOutcome NamedMapper::update(const BearingSet& set) {
   const std::size_t known_before = ids_.size();
   for (KnownNames& member : members_) heard.used = member.update(set) || heard.used;
   heard.thinned = as_size(best().last_image().thinned);
-  heard.recovered = as_size(best().last_image().replanted);
+  heard.recovered = as_size(best().last_image().reinitialised);
   if (heard.used && ++images_since_choice_ >= kImagesBetweenChoices) choose();
   if (best().is_full()) forget(best().least_worth());
   list_heard();
@@ -49,12 +50,12 @@ UpdateOutcome NamedMapper::update(const BearingSet& set) {
   return heard;
 }
 
-/// All of them the same, or their energies would be of different things.
+/// Removes the same poses from all members, so that their energies stay comparable.
 void NamedMapper::forget(const std::vector<PoseId>& poses) {
   for (KnownNames& member : members_) member.forget(poses);
 }
 
-/// By the whole graph, so that it is worth it again when there is a tenth more of it.
+/// Judges the rig from the whole graph. This is repeated when the graph has grown by a tenth.
 void NamedMapper::judge_rig() {
   images_since_judged_ += kImagesBetweenChoices;
   if (kJudgementsInGraph * images_since_judged_ < smoother().graph().poses()) return;
@@ -70,7 +71,7 @@ std::optional<Judgement> NamedMapper::doubt() const {
   return std::nullopt;
 }
 
-/// Those without hope go on from where the best one is.
+/// Chooses the member that gives the results. Members with a much higher energy become copies of the best one.
 void NamedMapper::choose() {
   images_since_choice_ = 0;
   judge_rig();
@@ -119,7 +120,7 @@ void NamedMapper::list_landmarks() {
     if (!best().is_current(id)) continue;
     const Identity identity = best().names()[as_size(id)];
     const auto name = ids_.find(identity);
-    if (name == ids_.end()) continue;  // of images that are forgotten
+    if (name == ids_.end()) continue;  // seen only in discarded images
     landmarks_.push_back({.id = name->second.id,
                           .identity = identity,
                           .in_graph = id,

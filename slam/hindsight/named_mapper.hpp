@@ -8,15 +8,16 @@
 
 namespace azimuth {
 
-/// Landmarks that the sensor names. Bearings without a name are passed over. A landmark keeps its id as long as it has
-/// its name.
+/// A mapper for landmarks whose identities the sensor reports. Bearings without an identity are ignored. A landmark
+/// keeps its id as long as its identity is the same.
 ///
-/// The energy has several minima, and which one is come to depends on how far bad bearings are listened to while little
-/// is known. So some members, who differ in that, go side by side; what is said is what the one with the lowest energy
-/// says, by one measure for all (SPEC VI.22).
+/// The energy has several minima, and the minimum that is found depends on the weight of outliers while little is
+/// known. So several members with different kernels run in parallel; the member with the lowest energy, in a measure
+/// that is common to all, gives the results (mathematics VI.22).
 class NamedMapper final : public Mapper {
  public:
-  /// A member for each of the settings, at least one. A landmark counts as established after so many bearings.
+  /// Makes one member per entry of `members`, at least one. A landmark counts as established after `established_after`
+  /// bearings.
   NamedMapper(const std::vector<KnownNamesSettings>& members, int established_after);
 
   bool remember(const MapSnapshot& map, const std::optional<Eigen::Matrix3d>& moved) override;
@@ -27,7 +28,7 @@ class NamedMapper final : public Mapper {
   void place(const PoseGaussian& robot) override;
 
   PoseGaussian pose() const override { return {best().pose(), best().covariance()}; }
-  std::span<const HeardBearing> heard() const override { return heard_; }
+  std::span<const UsedBearing> heard() const override { return heard_; }
   std::span<const HindsightLandmark> landmarks() const override { return landmarks_; }
   std::int64_t next_id() const override { return next_id_; }
   const Smoother& smoother() const override { return best().smoother(); }
@@ -44,7 +45,7 @@ class NamedMapper final : public Mapper {
  private:
   struct Name {
     std::int64_t id;
-    std::uint64_t sightings_before;  ///< the start
+    std::uint64_t sightings_before;  ///< number of bearings before the start
   };
   const KnownNames& best() const { return members_[best_]; }
   void choose();
@@ -59,7 +60,7 @@ class NamedMapper final : public Mapper {
   int images_since_choice_ = 0, images_since_judged_ = 0;
   std::unordered_map<Identity, Name> ids_;
   std::int64_t next_id_ = 0;
-  std::vector<HeardBearing> heard_;
+  std::vector<UsedBearing> heard_;
   std::vector<HindsightLandmark> landmarks_;
 };
 

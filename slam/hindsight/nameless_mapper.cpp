@@ -60,7 +60,7 @@ void NamelessMapper::list_landmarks() {
   }
 }
 
-/// Numbers of bearings mean the same to all hypotheses, those of landmarks do not.
+/// The number of the landmark's first bearing. Unlike landmark numbers, bearing numbers are common to all hypotheses.
 std::int64_t NamelessMapper::first_bearing_of(LandmarkId landmark) const {
   const std::vector<BearingId>& bearings = smoother().graph().bearings_of(landmark);
   return nameless_.number_of(*std::ranges::min_element(bearings));
@@ -73,8 +73,8 @@ NamelessMapper::Known NamelessMapper::known(LandmarkId landmark) const {
   return found == known_.end() ? Known{.id = first} : found->second;
 }
 
-/// What the likeliest hypothesis calls its landmarks they are called afterwards, though another may be the likeliest
-/// then: numbers of bearings mean the same to all.
+/// Removes poses but keeps the ids of the best hypothesis's landmarks, even if another hypothesis is the best
+/// afterwards. The ids are transferred by bearing numbers, which are common to all hypotheses.
 void NamelessMapper::forget() {
   struct Before {
     LandmarkId landmark;
@@ -115,7 +115,7 @@ std::optional<Judgement> NamelessMapper::doubt() const {
   return Judgement{Health::degraded, trust.doubt};
 }
 
-/// The others go on saying what may be true of the past instead: past() tells what all of them do.
+/// Optimises the best hypothesis only. past() still uses all hypotheses.
 void NamelessMapper::conclude() {
   concluded_ = smoother();
   concluded_->optimise(kIterationsToTheEnd);

@@ -9,15 +9,15 @@
 
 namespace azimuth {
 
-/// Landmarks all alike: which bearing is of which is decided by a beam of hypotheses. Names that bearings have are not
-/// looked at. A landmark's id is the number of the first bearing that was of it.
+/// A mapper for landmarks that all look alike. A beam of hypotheses decides the data association; identities of
+/// bearings are ignored. The id of a landmark is the number of its first bearing.
 ///
-/// What is said of landmarks is what the likeliest hypothesis says, of the robot what all of them do.
+/// The landmarks are those of the best hypothesis; the pose is that of all hypotheses.
 class NamelessMapper final : public Mapper {
  public:
   NamelessMapper(const NamelessSettings& settings, std::unique_ptr<Workers> workers);
 
-  /// Only where the robot is known to be somewhere: landmarks all alike do not tell.
+  /// Returns false without `moved`, since landmarks that all look alike do not reveal the robot's pose.
   bool remember(const MapSnapshot& map, const std::optional<Eigen::Matrix3d>& moved) override;
   void predict(const Motion& motion) override { nameless_.predict(motion); }
   UpdateOutcome update(const BearingSet& set) override;
@@ -25,7 +25,7 @@ class NamelessMapper final : public Mapper {
   void place(const PoseGaussian& robot) override;
 
   PoseGaussian pose() const override;
-  std::span<const HeardBearing> heard() const override { return heard_; }
+  std::span<const UsedBearing> heard() const override { return heard_; }
   std::span<const HindsightLandmark> landmarks() const override { return landmarks_; }
   std::int64_t next_id() const override { return nameless_.bearings_so_far(); }
   const Smoother& smoother() const override { return concluded_ ? *concluded_ : nameless_.beam().best().smoother(); }
@@ -40,7 +40,8 @@ class NamelessMapper final : public Mapper {
   }
 
  private:
-  /// Of a landmark whose first bearing is forgotten, or was before the start.
+  /// The id of a landmark whose first bearing was removed or lies before the start, and the number of its removed
+  /// bearings.
   struct Known {
     std::int64_t id = 0;
     std::uint64_t forgotten_sightings = 0;
@@ -53,10 +54,10 @@ class NamelessMapper final : public Mapper {
 
   Nameless nameless_;
   std::unique_ptr<Workers> workers_;
-  std::vector<Known> remembered_;        // of landmarks of a saved map, by their number in the graph
-  std::map<std::int64_t, Known> known_;  // by the number of the first bearing that is left
-  std::optional<Smoother> concluded_;    // of the likeliest; nothing: more may come
-  std::vector<HeardBearing> heard_;
+  std::vector<Known> remembered_;        // landmarks of a saved map, by their number in the graph
+  std::map<std::int64_t, Known> known_;  // by the number of the first remaining bearing
+  std::optional<Smoother> concluded_;    // the best hypothesis's; empty until conclude()
+  std::vector<UsedBearing> heard_;
   std::vector<HindsightLandmark> landmarks_;
 };
 

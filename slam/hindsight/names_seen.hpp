@@ -7,19 +7,19 @@
 
 namespace azimuth {
 
-/// The names that the newest images showed. Who goes through a door loses sight of one thing after the other, while
-/// there are others where they should be; who is carried off, of all at once.
+/// The identities in the newest images. A robot that drives through a door loses sight of one landmark after the other,
+/// while other landmarks are where they should be; a robot that is carried off loses sight of all at once.
 ///
 /// Thread contract: thread-bound.
 class NamesSeen {
  public:
-  /// An image that fits the pose, after `path_m` of driving.
+  /// Adds an image that fits the pose, at the driven distance `path_m`.
   void add(const BearingSet& image, double path_m);
-  /// One about which there is doubt: what the images before it showed is what it is compared with, but not for long.
-  /// What hides a landmark in one image hides it in the next, so that further ones say nothing new.
+  /// Skips a doubtful image. It is compared with the images before, but only a few such images are: an object that
+  /// hides a landmark in one image hides it in the next, so further images add no information.
   void pass_over() { ++passed_over_; }
 
-  /// Seen a moment ago, so that the next image should show it.
+  /// Whether the landmark was seen a moment ago, so that the next image should show it.
   bool is_due(Identity name, double path_m) const;
 
  private:

@@ -11,24 +11,25 @@
 namespace azimuth {
 namespace {
 
-constexpr std::size_t kFewest = 5;          // three bearings fit some pose whatever they are of
-constexpr std::size_t kContradictions = 3;  // fewer say more of the landmarks than of the pose
+constexpr std::size_t kFewest = 5;          // bearings; any three fit some pose
+constexpr std::size_t kContradictions = 3;  // fewer contradictions speak against landmarks rather than the pose
 constexpr int kUnknowns = 3;
-// Of chi-square with as many degrees of freedom as there are bearings beyond the unknowns: mean and twice its spread.
+// Upper bound of a chi-square with as many degrees of freedom as there are bearings beyond the unknowns: the mean plus
+// three standard deviations.
 double gate(std::size_t bearings) {
   const double freedom = static_cast<double>(bearings) - kUnknowns;
   return freedom + 3.0 * std::sqrt(2.0 * freedom);
 }
-constexpr double kRivalFactor = 2.0;       // a rival is ruled out only when it fails by a margin
-constexpr double kContradictsChi2 = 30.0;  // of 3 degrees of freedom: the poses contradict each other
+constexpr double kRivalFactor = 2.0;       // a rival pose must exceed the gate by this factor
+constexpr double kContradictsChi2 = 30.0;  // 3 degrees of freedom; beyond it, two poses contradict each other
 
-bool counts(const HeardBearing& bearing, std::int64_t known_below) {
+bool counts(const UsedBearing& bearing, std::int64_t known_below) {
   return bearing.established && bearing.landmark_id < known_below;
 }
 
-bool is_contradicted(std::span<const HeardBearing> heard, std::int64_t known_below) {
+bool is_contradicted(std::span<const UsedBearing> heard, std::int64_t known_below) {
   std::size_t established = 0, misfits = 0;
-  for (const HeardBearing& bearing : heard) {
+  for (const UsedBearing& bearing : heard) {
     if (!counts(bearing, known_below)) continue;
     ++established;
     misfits += bearing.agrees ? 0 : 1;
@@ -42,7 +43,7 @@ std::optional<Resection> resection(const Mapper& mapper, std::int64_t known_belo
   std::vector<DirectionTo> directions;
   std::vector<Smoother::Unknown> unknowns;
   double variance_rad2 = 0.0;
-  for (const HeardBearing& bearing : mapper.heard()) {
+  for (const UsedBearing& bearing : mapper.heard()) {
     if (!counts(bearing, known_below)) continue;
     const auto of = std::ranges::find(mapper.landmarks(), bearing.landmark_id, &HindsightLandmark::id);
     if (of == mapper.landmarks().end() || !smoother.graph().landmark(of->in_graph).is_point()) continue;

@@ -7,10 +7,10 @@
 
 namespace azimuth {
 
-/// The pose from one image of named landmarks, where most of it contradicts the pose that is believed and one other
-/// explains it: wheels that slipped are found out at once. Nothing: the image is as good as usual, or shows too little.
+/// Relocalisation from one image with identities, for instance after the wheels have slipped. Returns a pose when most
+/// of the image contradicts the believed pose and exactly one other pose explains it; otherwise empty.
 ///
-/// Landmarks of ids below `known_below` are gone by only. `belief` is the pose and its covariance of (x [m], y [m],
+/// Only landmarks with ids below `known_below` are used. `belief` is the pose and its covariance of (x [m], y [m],
 /// heading [rad]) in the map. Thread contract: reentrant.
 std::optional<PoseGaussian> relocated(const Mapper& mapper, const PoseGaussian& belief, std::int64_t known_below,
                                       double min_distance_m);

@@ -9,15 +9,18 @@
 namespace azimuth {
 namespace {
 
-// What an odometer may say of a robot that stands still, and the distance of something near.
+// Motion that odometry may report for a robot at rest, and the assumed distance of a near landmark.
 constexpr double kRest_m = 0.02, kRest_rad = 0.02, kNearby_m = 0.4;
-// Images of the motion may come after odometry has said that it is over.
+// Delay after which images count as taken at rest; images taken during a motion may arrive after odometry reports the
+// end of the motion.
 constexpr Duration kSettles = std::chrono::seconds(1);
 constexpr double kGate_sigmas = 3.0;
-constexpr int kFewestCommon = 3;  // landmarks: fewer may have been moved themselves
-// Without names what is no landmark counts as well, and what one image missed the next ones show.
+// Least number of landmarks seen before and now; fewer landmarks may have been moved themselves, without the robot.
+constexpr int kFewestCommon = 3;
+// Without identities, clutter counts as well. Landmarks that one image missed appear in the next ones.
 constexpr int kFewestUnnamed = 5, kReferenceImages = 2;
-// What a robot is carried away from in a straight line hardly moves.
+// Time without change after which the robot counts as put down. A landmark right behind or ahead hardly moves while the
+// robot is carried.
 constexpr Duration kStandsStill = std::chrono::seconds(3);
 
 double variance(const Bearing& bearing, double sigma_rad) {
@@ -32,7 +35,7 @@ void RestWatch::predict(const Motion& motion) {
   turned_rad_ += std::abs(motion.T_start_end.heading_rad);
 }
 
-/// Long enough for what it sees to stand still as well.
+/// Whether the robot has been at rest for long enough that its images are at rest too.
 bool RestWatch::is_at_rest(Stamp stamp) {
   if (!rests_since_ || driven_m_ > kRest_m || turned_rad_ > kRest_rad) {
     rests_since_ = stamp;

@@ -8,34 +8,35 @@
 
 namespace azimuth {
 
-/// Notices that landmarks are seen to move while odometry stands still: somebody has lifted the robot, or the encoders
-/// say nothing. No map is needed for that, and no pose. Without names a landmark has moved when nothing was seen where
-/// it is seen now.
+/// Detects that bearings change while odometry stands still: the robot was lifted, or the encoders fail. The detection
+/// needs neither a map nor a pose. Without identities, a landmark counts as moved when nothing was seen before in its
+/// present direction.
 ///
 /// Thread contract: thread-bound.
 class RestWatch {
  public:
   explicit RestWatch(bool named) : named_(named) {}
 
-  /// The robot moved, before the next add().
+  /// Adds a motion of the robot before the next add().
   void predict(const Motion& motion);
-  /// `sigma_rad` is of bearings that say none of their own, `noise` how many times that they turned out to be.
+  /// Adds an image. `sigma_rad` is the standard deviation of bearings that carry none; `noise` is a factor on all
+  /// standard deviations.
   void add(const BearingSet& image, double sigma_rad, double noise);
-  /// Until it has been seen to stand still, or odometry moves.
+  /// Whether the robot is being carried. The state ends when the bearings stand still or odometry moves.
   bool is_carried() const { return carried_; }
 
  private:
   bool is_at_rest(Stamp stamp);
-  /// The one that has been seen at rest and may be this one; null: none.
+  /// The reference bearing that may be of the same landmark; null: none.
   const Bearing* seen_before(const Bearing& bearing) const;
 
   bool named_;
-  double driven_m_ = 0.0, turned_rad_ = 0.0;  ///< since the reference, or since it was known to rest
+  double driven_m_ = 0.0, turned_rad_ = 0.0;  ///< since the robot came to rest
   std::optional<Stamp> rests_since_;
-  /// What was seen at rest: the bearings of its first images, that one of them may have missed some.
+  /// The bearings of the first images at rest. Several images are used, since one of them may have missed landmarks.
   std::vector<Bearing> reference_;
-  int images_ = 0;  ///< that these are of
-  Stamp seen_{};    ///< the last of them
+  int images_ = 0;  ///< number of images in `reference_`
+  Stamp seen_{};    ///< time of the last of these images
   bool carried_ = false;
 };
 

@@ -29,16 +29,17 @@ SmootherEstimator::SmootherEstimator(const Rig& rig, const SmootherEstimatorSett
   if (start.map == nullptr) return;
   start_ = *start.map;
   belief_.T_map_body = start_->T_map_body;
-  beginning_.begin(start, [this](const StartPose& pose) { begin_at(pose); });
+  start_decision_.begin(start, [this](const StartPose& pose) { begin_at(pose); });
 }
 
 bool SmootherEstimator::odometry_begins(bool goes_on) {
-  const bool here = beginning_.odometry_begins(goes_on, [this](const StartPose& pose) { begin_at(pose); });
+  const bool here = start_decision_.odometry_begins(goes_on, [this](const StartPose& pose) { begin_at(pose); });
   if (here) begin_at({.known = true, .moved = Eigen::Matrix3d::Zero(), .within = {}});
   return here;
 }
 
-/// On a map too small to be searched it begins from nothing: to go on would be to search for ever.
+/// Starts from the saved map. If the pose is unknown and the map is too small for relocalisation, it starts from an
+/// empty map, since relocalisation would never end.
 void SmootherEstimator::begin_at(const StartPose& pose) {
   const MapSnapshot map = *std::exchange(start_, std::nullopt);
   const bool searchable = settings_.named && map.landmarks.size() >= kFewestEstablished;
@@ -55,7 +56,7 @@ void SmootherEstimator::predict(const Motion& motion) {
   mapper_->predict(motion);
   rest_.predict(motion);
   lost_.predict(with_floors(motion, rig_.odometry));
-  hearing_.path_m += motion.path_m;
+  recognition_.path_m += motion.path_m;
   belief_ = moved(belief_, motion);
   candidate_ = moved(candidate_, motion);
 }
@@ -71,10 +72,10 @@ void SmootherEstimator::update(const BearingSet& bearings) {
 }
 
 void SmootherEstimator::hear(const BearingSet& bearings) {
-  hearing_.troubles.add(bearings.trouble, hearing_.path_m);
+  recognition_.troubles.add(bearings.trouble, recognition_.path_m);
   turn_to_body(bearings);
   rest_.add(image_, rig_.camera.sigma_bearing_rad, bearing_noise());
-  // Without names there is no going back to the map before: what is seen meanwhile is not heard at all.
+  // Without identities the bookmark cannot be restored, so bearings of a robot that is elsewhere are not used at all.
   const bool is_carried_off = !settings_.named && rest_.is_carried() && can_be_lost();
   held_back_ = is_carried_off || (!settings_.named && is_held_back());
   if (is_carried_off) return lifted();
@@ -112,19 +113,19 @@ void SmootherEstimator::listen(const UpdateOutcome& heard) {
   counts_.ambiguous += heard.ambiguous;
   counts_.recovered += heard.recovered;
   bool agreed = false;
-  for (const HeardBearing& bearing : mapper_->heard()) {
+  for (const UsedBearing& bearing : mapper_->heard()) {
     if (bearing.agrees) {
       ++counts_.accepted;
       agreed = agreed || bearing.established;
       fit_since_slip_ += bearing.established && bearing.landmark_id < known_below_ ? 1 : 0;
     } else {
       ++counts_.rejected;
-      ++hearing_.contradictions;
+      ++recognition_.contradictions;
     }
   }
-  if (agreed) hearing_.agreed();
+  if (agreed) recognition_.agreed();
   if (fit_since_slip_ >= kFitsAgain) slips_in_row_ = 0;
-  hearing_.deaf_streaks = hearing_.contradictions / kContradictionsInStreak;
+  recognition_.inflations = recognition_.contradictions / kContradictionsInStreak;
 }
 
 bool SmootherEstimator::is_settled(const HindsightLandmark& landmark) const {

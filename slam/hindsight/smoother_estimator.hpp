@@ -7,8 +7,8 @@
 
 #include "slam/estimator/estimator.hpp"
 #include "slam/estimator/health_settings.hpp"
-#include "slam/estimator/hearing.hpp"
-#include "slam/estimator/map_beginning.hpp"
+#include "slam/estimator/map_start_decision.hpp"
+#include "slam/estimator/recognition_history.hpp"
 #include "slam/estimator/rig.hpp"
 #include "slam/hindsight/image_poses.hpp"
 #include "slam/hindsight/landmark_covariances.hpp"
@@ -20,22 +20,23 @@
 
 namespace azimuth {
 
-/// What SmootherEstimator says and when, whoever maps.
+/// Settings of SmootherEstimator that do not depend on the mapper.
 struct SmootherEstimatorSettings {
-  bool named = true;               ///< landmarks have names, so a lost robot can be searched for
-  int confirm_after_bearings = 3;  ///< a landmark of fewer is not published
-  /// Path and map may be too large by this share, which no bearing tells: standard deviation.
+  bool named = true;               ///< bearings carry identities
+  int confirm_after_bearings = 3;  ///< a landmark with fewer bearings is not published
+  /// Standard deviation of the relative scale error of path and map, which bearings cannot reveal.
   double sigma_scale_distance = 0.0;
   HealthSettings health;
   RelocalisationSettings relocalisation;
 };
 
-/// Path and map by everything seen so far: each image may change what earlier ones meant (SPEC VI.18 to VI.20). What it
-/// says of the present is the newest pose; what it thinks of the past by now, write_past().
+/// An estimator that optimises path and map from all measurements so far, so each image may revise what earlier images
+/// meant (mathematics VI.18 to VI.20). estimate() gives the newest pose, write_past() the current estimate of all past
+/// poses.
 ///
-/// A robot that is not where it should be is searched for in the map, where landmarks have names.
+/// A robot that is not where the estimator believes is relocalised in the map.
 ///
-/// Thread contract: thread-bound. Allocates: path and map grow.
+/// Thread contract: thread-bound. Allocates memory, since path and map grow.
 class SmootherEstimator final : public Estimator {
  public:
   SmootherEstimator(const Rig& rig, const SmootherEstimatorSettings& settings, std::unique_ptr<Mapper> mapper,
@@ -56,25 +57,25 @@ class SmootherEstimator final : public Estimator {
   const Mapper& mapper() const { return *mapper_; }
 
  private:
-  static constexpr int kFitsAgain = 8;       // bearings
-  static constexpr int kSlipsUntilLost = 3;  // in a row: wheels that slip do not so with every image
+  static constexpr int kFitsAgain = 8;       // number of bearings
+  static constexpr int kSlipsUntilLost = 3;  // number of consecutive slips; wheels do not slip with every image
 
   void hear(const BearingSet& bearings);
   void turn_to_body(const BearingSet& image);
   void listen(const UpdateOutcome& heard);
   ImageAgreement agreement() const;
-  /// Of a bearing of the last image, in the robot's frame; its own noise is left out, as is what robot and landmark
-  /// have in common.
+  /// Predicted azimuth of a landmark in the last image, in the robot's frame. The variance contains neither the
+  /// bearing's noise nor the correlation of robot and landmark.
   struct Prediction {
     double azimuth_rad = 0.0, variance_rad2 = 0.0;
   };
   std::optional<Prediction> predict(const HindsightLandmark& landmark) const;
   bool is_in_view(const Prediction& predicted) const;
-  double bearing_noise() const;  ///< times what the rig says
+  double bearing_noise() const;  ///< factor on the rig's standard deviation
   bool agrees(const Bearing& bearing, const Prediction& predicted) const;
   void note_names();
   void begin_at(const StartPose& pose);
-  void begin_search(const std::optional<Whereabouts>& within = {});
+  void begin_search(const std::optional<PositionPrior>& within = {});
   bool has_driven() const;
   bool can_be_lost() const;
   void lifted();
@@ -108,30 +109,30 @@ class SmootherEstimator final : public Estimator {
   SmootherEstimatorSettings settings_;
   std::unique_ptr<Mapper> mapper_;
   LandmarkCovariances covariances_;
-  MapBeginning beginning_;
-  std::optional<MapSnapshot> start_;  ///< until it is known where on it the robot is
+  MapStartDecision start_decision_;
+  std::optional<MapSnapshot> start_;  ///< saved map; kept until the robot's pose on this map is known
   LostRobot lost_;
   NamesSeen names_seen_;
   RestWatch rest_;
-  std::int64_t known_below_ = 0;  ///< ids of landmarks that were there before anything spoke against the pose
-  Hearing hearing_;
+  std::int64_t known_below_ = 0;  ///< landmarks below this id were mapped before the pose was in doubt
+  RecognitionHistory recognition_;
   ImagePoses image_poses_;
   int images_since_bookmark_ = 0;
   std::size_t images_at_bookmark_ = 0;
-  int fit_again_ = 0;       ///< bearings, while the robot is searched for
-  int slips_in_row_ = 0;    ///< until enough bearings fit between two of them
-  int fit_since_slip_ = 0;  ///< bearings
+  int fit_again_ = 0;       ///< number of bearings that fit during relocalisation
+  int slips_in_row_ = 0;    ///< reset when enough bearings fit between two slips
+  int fit_since_slip_ = 0;  ///< number of bearings that fit since the last slip
   double map_reach_m_ = 0.0;
   AssociationCounts counts_;
   PoseGaussian belief_;
-  std::deque<PathPose> latest_;  ///< at the newest images
-  BearingSet image_;             ///< the last one, in the robot's frame
-  bool held_back_ = false;       ///< it is not mapped: it may be of somewhere else
-  Pose2 judged_from_;            ///< where the robot was thought to be when that was asked last
+  std::deque<PathPose> latest_;  ///< poses at the newest images
+  BearingSet image_;             ///< the last image, in the robot's frame
+  bool held_back_ = false;       ///< the last image is not mapped, since the robot may be elsewhere
+  Pose2 judged_from_;            ///< believed pose when an image was last tested against the place
   UsualOdds usual_odds_;
   MappedShare usual_share_;
-  PoseGaussian candidate_;       ///< where the robot may be, while it is searched for without names
-  double candidate_odds_ = 0.0;  ///< ln, by images since
+  PoseGaussian candidate_;       ///< pose to be confirmed during relocalisation without identities
+  double candidate_odds_ = 0.0;  ///< ln of the odds of `candidate_`, from the images since its choice
   ImageMatch match_;
   KnownMap known_map_;
   RaysOfImage rays_;

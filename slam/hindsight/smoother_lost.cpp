@@ -1,4 +1,4 @@
-// SmootherEstimator: a robot that is not where it should be.
+// SmootherEstimator: detection that the robot is not where the estimator believes, and relocalisation.
 
 #include <algorithm>
 #include <cmath>
@@ -12,31 +12,33 @@
 namespace azimuth {
 namespace {
 
-constexpr double kNamedByAccident = 0.05;  // a wrong name that fits all the same
-constexpr double kInnerView = 0.9;         // of the field of view: nearer to its rim nothing is expected
+constexpr double kNamedByAccident = 0.05;  // probability that a wrong identity fits
+constexpr double kInnerView = 0.9;         // share of the field of view within which landmarks are expected
 constexpr double kDrivenThrough_m = 0.5;
-constexpr double kNearest_m = 0.05;  // landmarks at which a bearing says something
-constexpr int kMisfitCounts = 3;     // bearings
+constexpr double kNearest_m = 0.05;  // least distance of a landmark whose bearing is used
+constexpr int kMisfitCounts = 3;     // a misfit counts as so many fitting bearings
 
 }  // namespace
 
-/// Who has seen things from one place only knows nothing of where they are.
+/// Whether landmark positions are known: the robot has driven, or there is a saved map. From one place, bearings do not
+/// determine positions.
 bool SmootherEstimator::has_driven() const {
-  return hearing_.path_m > kDrivenThrough_m || std::ranges::any_of(mapper_->landmarks(), &HindsightLandmark::recalled);
+  return recognition_.path_m > kDrivenThrough_m ||
+         std::ranges::any_of(mapper_->landmarks(), &HindsightLandmark::recalled);
 }
 
 bool SmootherEstimator::can_be_lost() const { return has_driven() && count_settled() >= kFewestEstablished; }
 
-/// What is seen meanwhile is of places that nobody knows the way to. A robot that is put where it is to begin begins
-/// there.
+/// Handles a robot that was lifted. The bearings since the lift are from places without known connection to the map, so
+/// the robot is relocalised. A robot that was moved before it had driven starts anew where it is put down.
 void SmootherEstimator::lifted() {
   if (!lost_.is_searched_for() && !has_driven()) return go_back();
   if (!lost_.is_searched_for()) begin_search();
   belief_.covariance = LostRobot::anywhere();
 }
 
-/// What odometry says of the way here is void then; the image itself is left in the graph, where it fits nothing,
-/// unless the robot was lost.
+/// Relocalises the robot from the last image. The odometry to this image is discarded. The image stays in the graph,
+/// where its bearings fit nothing, unless the robot was lost.
 bool SmootherEstimator::relocate() {
   const std::optional<PoseGaussian> here = relocated(*mapper_, mapper_->pose(), known_below_, kNearest_m);
   if (!here) return false;
@@ -58,9 +60,10 @@ void SmootherEstimator::set_bookmark() {
   images_since_bookmark_ = 0;
 }
 
-/// By the newest image as the whole graph explains it: odometry holds the pose where it was, so bearings from somewhere
-/// else fit nowhere. In a room that is not on the map there are none that could, but others in their place. Those that
-/// the graph leaves aside count as well: what was seen often enough from here has moved when the robot was lifted.
+/// How well the newest image fits the graph. Odometry holds the pose where it was, so bearings from elsewhere do not
+/// fit. An unmapped room shows unmapped landmarks instead of mapped ones, so a landmark that is due but not shown
+/// counts as unexplained. Bearings that the graph thins out count too: the landmarks have moved when the robot was
+/// lifted.
 ImageAgreement SmootherEstimator::agreement() const {
   if (!settings_.named || !can_be_lost()) return {};
   ImageAgreement agreement{.chance = kNamedByAccident};
@@ -69,9 +72,10 @@ ImageAgreement SmootherEstimator::agreement() const {
     if (landmark.id >= known_below_) continue;
     const auto bearing = std::ranges::find(image_.bearings, landmark.identity, &Bearing::identity);
     const bool is_shown = bearing != image_.bearings.end();
-    const bool counts = is_settled(landmark) && (is_shown || names_seen_.is_due(landmark.identity, hearing_.path_m));
+    const bool counts =
+        is_settled(landmark) && (is_shown || names_seen_.is_due(landmark.identity, recognition_.path_m));
     const std::optional<Prediction> predicted = counts ? predict(landmark) : std::nullopt;
-    if (is_shown && !predicted) --agreement.bearings;  // it says nothing of the pose
+    if (is_shown && !predicted) --agreement.bearings;  // the bearing carries no information on the pose
     if (!predicted || (!is_shown && !is_in_view(*predicted))) continue;
     ++agreement.expected;
     if (is_shown && agrees(*bearing, *predicted)) ++agreement.explained;
@@ -95,16 +99,16 @@ bool SmootherEstimator::agrees(const Bearing& bearing, const Prediction& predict
   return off_rad * off_rad < kFitsChi2 * (sigma * sigma + predicted.variance_rad2);
 }
 
-/// What an image shows that fits nowhere is no measure for those after it.
+/// Remembers the image's identities. An image that does not fit must not be the reference for later images.
 void SmootherEstimator::note_names() {
   if (lost_.is_searched_for() || lost_.is_in_doubt()) return names_seen_.pass_over();
-  names_seen_.add(image_, hearing_.path_m);
+  names_seen_.add(image_, recognition_.path_m);
   if (slips_in_row_ == 0) known_below_ = mapper_->next_id();
 }
 
-/// Mapping goes on meanwhile, since a burst of bad bearings looks the same: either they fit again, or the robot is
-/// found somewhere else, and what was heard since it was carried off is forgotten.
-void SmootherEstimator::begin_search(const std::optional<Whereabouts>& within) {
+/// Starts relocalisation. Mapping continues, since a burst of bad bearings looks the same: either bearings fit again,
+/// or the robot is found elsewhere and everything since the bookmark is discarded.
+void SmootherEstimator::begin_search(const std::optional<PositionPrior>& within) {
   lost_.begin_search(known(settled_landmarks()), view(), within);
   candidate_ = belief_;
   candidate_odds_ = 0.0;
@@ -142,7 +146,7 @@ void SmootherEstimator::search() {
   if (const auto here = look_for_robot()) go_back_to(*here);
 }
 
-/// Where it is; nothing: it may still be anywhere.
+/// Returns the robot's pose, or nothing while it is not determined.
 std::optional<PoseGaussian> SmootherEstimator::look_for_robot() {
   belief_.covariance = LostRobot::anywhere();
   const std::optional<PoseHypothesis> found = lost_.look(directions());
@@ -150,7 +154,7 @@ std::optional<PoseGaussian> SmootherEstimator::look_for_robot() {
   return PoseGaussian{mapper_->smoother().graph().body_at(found->T_map_body), kDoubtfulFactor * found->covariance};
 }
 
-/// Of the last image.
+/// Directions of the last image.
 std::vector<SeenDirection> SmootherEstimator::directions() const {
   const double yaw_rad = mapper_->smoother().graph().calibration()[calibration::yaw];
   std::vector<SeenDirection> directions;
@@ -164,7 +168,7 @@ std::vector<SeenDirection> SmootherEstimator::directions() const {
   return directions;
 }
 
-/// To path and map as they were at the bookmark.
+/// Restores path and map as of the bookmark.
 void SmootherEstimator::go_back() {
   mapper_->return_to_bookmark();
   belief_ = mapper_->pose();
@@ -173,7 +177,7 @@ void SmootherEstimator::go_back() {
   covariances_.forget();
 }
 
-/// Likewise, with the robot where it was found.
+/// Restores path and map as of the bookmark, with the robot at the pose found.
 void SmootherEstimator::go_back_to(const PoseGaussian& here) {
   mapper_->return_to_bookmark();
   mapper_->place(here);
@@ -183,10 +187,10 @@ void SmootherEstimator::go_back_to(const PoseGaussian& here) {
   was_found();
 }
 
-/// What the newest images show of the map is where it should be: more than chance or a few good bearings among bad ones
-/// explain. What was mapped meanwhile fits itself, wherever that is.
+/// Whether the newest images fit the map again, by more bearings than chance explains. Landmarks mapped since the doubt
+/// began do not count, since they fit wherever the robot is.
 bool SmootherEstimator::fits_again() {
-  for (const HeardBearing& bearing : mapper_->heard())
+  for (const UsedBearing& bearing : mapper_->heard())
     if (bearing.established && bearing.landmark_id < known_below_)
       fit_again_ = std::max(0, fit_again_ + (bearing.agrees ? 1 : -kMisfitCounts));
   return fit_again_ >= kFitsAgain;
@@ -195,7 +199,7 @@ bool SmootherEstimator::fits_again() {
 void SmootherEstimator::was_found() {
   lost_.was_found();
   covariances_.forget();
-  hearing_.agreed();
+  recognition_.agreed();
   ++counts_.recovered;
   set_bookmark();
 }

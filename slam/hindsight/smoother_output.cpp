@@ -1,4 +1,4 @@
-// SmootherEstimator: what it says of robot and map.
+// SmootherEstimator: its output of pose, map and health.
 
 #include <Eigen/Core>
 #include <cmath>
@@ -11,10 +11,10 @@ namespace azimuth {
 namespace {
 
 constexpr double kExpectedWithin_sigmas = 3.0;
-constexpr double kPlaceKnown = 0.1;  // standard deviation of a distance, as a share of it
+constexpr double kPlaceKnown = 0.1;  // relative standard deviation of a distance
 
-/// Images and odometry that turn out to be of other times: nobody knows which of them are late, and so whether the
-/// robot is where they agree, or on by what it drives in the time between.
+/// Covariance of the pose due to a lag between images and odometry. It is unknown whether images or odometry are late,
+/// so the robot may be off by the way that it drives in this time.
 template <typename Poses>
 Eigen::Matrix3d by_lag(const Poses& poses, std::size_t newest, double lag_s) {
   const Stamp since = poses[newest].stamp - duration_from_seconds(lag_s);
@@ -31,7 +31,7 @@ Eigen::Matrix3d by_lag(const Poses& poses, std::size_t newest, double lag_s) {
 }  // namespace
 
 void SmootherEstimator::estimate(Estimate& out) const {
-  write(belief_, hearing_.path_m, out);
+  write(belief_, recognition_.path_m, out);
   const Smoother& smoother = mapper_->smoother();
   for (const HindsightLandmark& landmark : settled_landmarks()) {
     const Eigen::Vector2d p_map = smoother.graph().landmark(landmark.in_graph).p_map();
@@ -41,7 +41,7 @@ void SmootherEstimator::estimate(Estimate& out) const {
          .p_map_landmark_m = p_map,
          .covariance_m2 = covariances_.of(landmark, smoother) + by_scale(settings_.sigma_scale_distance, p_map)});
   }
-  for (const HeardBearing& bearing : mapper_->heard())
+  for (const UsedBearing& bearing : mapper_->heard())
     if (bearing.agrees && bearing.of_last_image && !held_back_)
       out.accepted.push_back(
           {bearing.landmark_id, wrap(bearing.azimuth_rad - rig_.camera.yaw_offset_rad), bearing.sigma_rad});
@@ -50,7 +50,7 @@ void SmootherEstimator::estimate(Estimate& out) const {
 void SmootherEstimator::look_ahead(const Motion& motion, Estimate& out) const {
   const MovedPose moved = apply(belief_.T_map_body, motion);
   write({moved.T_map_body, moved.G * belief_.covariance * moved.G.transpose() + moved.noise},
-        hearing_.path_m + motion.path_m, out);
+        recognition_.path_m + motion.path_m, out);
 }
 
 void SmootherEstimator::write(const PoseGaussian& belief, double path_m, Estimate& out) const {
@@ -77,7 +77,7 @@ Judgement SmootherEstimator::judged(const Eigen::Matrix3d& covariance, double pa
   if (slips_in_row_ >= kSlipsUntilLost)
     return {Health::lost, "odometry and images contradict each other again and again"};
   if (const auto judgement = lost_.judgement()) return *judgement;
-  Evidence evidence = hearing_.evidence(covariance, path_m);
+  Evidence evidence = recognition_.evidence(covariance, path_m);
   evidence.landmarks = count_settled();
   evidence.map_reach_m = map_reach_m_;
   const Judgement judgement = judge(evidence, settings_.health);
@@ -85,7 +85,7 @@ Judgement SmootherEstimator::judged(const Eigen::Matrix3d& covariance, double pa
   return mapper_->doubt().value_or(judgement);
 }
 
-/// Nothing: the robot stands on it, or it is at infinity.
+/// Predicts a landmark's azimuth; empty when the robot is at the landmark or the landmark at infinity.
 std::optional<SmootherEstimator::Prediction> SmootherEstimator::predict(const HindsightLandmark& landmark) const {
   const Smoother& smoother = mapper_->smoother();
   const SmoothedPose robot = smoother.graph().camera_at(SmoothedPose(belief_.T_map_body));
@@ -132,8 +132,10 @@ RigFinding SmootherEstimator::rig_finding() const {
   return by_keys(rig_, finding, error[calibration::scale_turn]);
 }
 
-/// Before its distance is known a landmark is Gaussian only as seen from where it was seen first, which a map does not
-/// say: begun again from there it makes the robot surer than it is. The next start sees it anew.
+/// Whether the landmark's distance is known well enough to save it. Until then, the error of the landmark is Gaussian
+/// only in a chart whose origin is the place where the landmark was seen first, and a saved map does not contain this
+/// chart. A start from a map with such a landmark would make the robot's pose too certain; without the landmark, the
+/// next drive maps it anew.
 bool SmootherEstimator::has_place(const HindsightLandmark& landmark) const {
   const BearingGraph& graph = mapper_->smoother().graph();
   const double known_per_m = kPlaceKnown * graph.landmark(landmark.in_graph).inverse_distance_per_m;
@@ -142,7 +144,7 @@ bool SmootherEstimator::has_place(const HindsightLandmark& landmark) const {
 
 bool SmootherEstimator::save_map(MapSnapshot& out) const {
   out.clear();
-  if (judged(belief_.covariance, hearing_.path_m).health == Health::lost) return false;
+  if (judged(belief_.covariance, recognition_.path_m).health == Health::lost) return false;
   std::vector<HindsightLandmark> settled = settled_landmarks();
   std::erase_if(settled, [this](const HindsightLandmark& landmark) { return !has_place(landmark); });
   if (settled.empty()) return false;

@@ -1,4 +1,4 @@
-// SmootherEstimator: whether an image is of here, where landmarks are all alike.
+// SmootherEstimator: whether an image fits the believed place, where landmarks all look alike.
 
 #include <algorithm>
 #include <cmath>
@@ -10,22 +10,22 @@
 namespace azimuth {
 namespace {
 
-constexpr PoseId kLastImages = 3;  // what none of them showed may be hidden, or was never there
+constexpr PoseId kLastImages = 3;  // a landmark in none of them may be occluded or wrong
 constexpr int kAssignments = 2;
-constexpr double kOfUsual = 0.5;        // an image says at least so much of the right place, most often
-constexpr double kMostOfAnImage = 4.0;  // ln of odds: what spoils one bearing may spoil them all
+constexpr double kOfUsual = 0.5;        // share of the usual evidence that most images of the right place give
+constexpr double kMostOfAnImage = 4.0;  // ln of odds; errors in one image are correlated
 
 }  // namespace
 
-/// Bearings of another place, once they are taken for those of known landmarks, bend path and map for good, and all
-/// that is left is a map that fits itself: so it is asked beforehand whether an image is of here. It has a say only
-/// where images nearly always speak for the place.
+/// Whether the image is withheld from the mapper. Bearings from another place that are associated with known landmarks
+/// bend path and map for good, and the map then fits itself. So each image is first tested against the believed place.
+/// The test counts only where images nearly always support the place.
 bool SmootherEstimator::is_held_back() {
   if (lost_.is_searched_for()) return !found_by_places();
   if (!lost_.is_in_doubt() && !can_be_lost()) return false;
   if (lost_.is_in_doubt() && !is_seen_anew()) return true;
   judged_from_ = belief_.T_map_body;
-  // That there are other things as well says nothing of a robot that explores.
+  // Additional bearings do not contradict the place of a robot that explores.
   const std::optional<Compared> image = compared(seen_lately(), belief_, MappedShare(0.0));
   ImageAgreement agreement;
   if (image && usual_odds_.nearly_all_positive()) {
@@ -42,14 +42,15 @@ bool SmootherEstimator::is_held_back() {
   return false;
 }
 
-/// What hides landmarks in one image hides them in the next one from the same place.
+/// Whether the robot has moved enough since the last test. An object that occludes landmarks in one image also occludes
+/// them in the next image from the same place.
 bool SmootherEstimator::is_seen_anew() const {
   const Pose2 since = inverse(judged_from_) * belief_.T_map_body;
   return since.position().norm() >= settings_.relocalisation.key_distance_m ||
          std::abs(since.heading_rad) >= settings_.relocalisation.key_turn_rad;
 }
 
-/// Those that the images of the last moment showed, as far as they were mapped.
+/// The mapped landmarks in the last images, within a short driven distance.
 std::vector<HindsightLandmark> SmootherEstimator::seen_lately() const {
   const BearingGraph& graph = mapper_->smoother().graph();
   std::vector<LandmarkId> seen;
@@ -69,8 +70,9 @@ std::vector<HindsightLandmark> SmootherEstimator::seen_lately() const {
   return landmarks;
 }
 
-/// The last image against these landmarks, as they are seen from near here: by the odds that it is of them and not of
-/// nothing that is mapped. Nothing: it does not say. `mapped` is the share of what is seen that should be of them.
+/// Compares the last image with these landmarks from about the pose `here`. The result contains ln of the odds that its
+/// bearings are of these landmarks rather than of unmapped ones. Empty when the image shows too little. `mapped` is the
+/// expected share of bearings of mapped landmarks.
 std::optional<Compared> SmootherEstimator::compared(std::span<const HindsightLandmark> landmarks,
                                                     const PoseGaussian& here, const MappedShare& mapped) {
   if (landmarks.size() < kFewestEstablished || 2 * image_.bearings.size() < landmarks.size()) return std::nullopt;
@@ -82,9 +84,9 @@ std::optional<Compared> SmootherEstimator::compared(std::span<const HindsightLan
   return match_.compare(known_map_, rays_, here, beliefs, kAssignments);
 }
 
-/// What a search finds was chosen among many places by what images showed there, and of landmarks all alike some fit
-/// anywhere: images that had no say in the choice have to confirm it, and to be explained about as well as they used to
-/// be. So they may where odometry has the robot.
+/// Confirms a candidate pose. A search picks its result among many places by the images so far, and among landmarks
+/// that look alike some place always fits. So later images must confirm the candidate about as well as images usually
+/// support the right place. The candidate may also be the pose by odometry.
 bool SmootherEstimator::found_by_places() {
   if (is_seen_anew()) {
     judged_from_ = belief_.T_map_body;

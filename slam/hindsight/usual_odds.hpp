@@ -3,7 +3,7 @@
 
 namespace azimuth {
 
-/// What images used to say for the place where the robot was: ln of odds, of the newest ones.
+/// Running mean and variance of the evidence that recent images gave for the robot's place (ln of odds).
 ///
 /// Thread contract: thread-bound.
 class UsualOdds {
@@ -15,8 +15,8 @@ class UsualOdds {
     variance_ += (off * (log_odds - mean_) - variance_) / images_;
   }
   double mean() const { return mean_; }
-  /// Only where images nearly always speak for the place, one that does not says that it is another: elsewhere the map
-  /// is wrong in parts, or things are hidden more often than not.
+  /// Whether images nearly always support the believed place. Only then does an image that does not support this place
+  /// mean that the robot is elsewhere; otherwise the map is wrong in parts, or landmarks are often occluded.
   bool nearly_all_positive() const {
     return images_ >= kFewest && mean_ > 0.0 && mean_ * mean_ > kSigmas * kSigmas * variance_;
   }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kEstablished = 3;
 
-/// As a camera sees it that is off by `errors`.
+/// The azimuth corrected for the camera's `errors`.
 double corrected(const Bearing& bearing, const Eigen::Vector4d& errors, const std::optional<CameraModel>& camera) {
   if (std::isnan(bearing.radius_px) || errors.isZero(0.0)) return bearing.azimuth_rad;
   const std::optional<RadialProfile> profile = camera ? std::optional(camera->profile()) : std::nullopt;
@@ -74,7 +74,7 @@ void WithHindsight::add(const Image& image) {
   image_poses_.add(seen_.stamp, mapper_);
 }
 
-/// As the camera sees it, which is as it was found to be.
+/// The bearing in the robot's frame, by the camera calibration found so far.
 Bearing WithHindsight::in_robot_frame(const Bearing& seen) const {
   Bearing bearing = seen;
   if (std::isnan(seen.elevation_rad)) {
@@ -98,7 +98,7 @@ void WithHindsight::conclude() {
   concluded_ = true;
 }
 
-/// The graph's landmark that the filter calls so; null: it does not know where that is.
+/// The graph's landmark that has this id in the filter; null when it has too few bearings or no finite position.
 const HindsightLandmark* WithHindsight::settled(std::int64_t id) const {
   const auto found = std::ranges::find(mapper_.landmarks(), id, &HindsightLandmark::identity);
   if (found == mapper_.landmarks().end() || found->sightings < as_size(kEstablished)) return nullptr;

@@ -12,41 +12,42 @@
 
 namespace azimuth {
 
-/// A filter that also knows what it has learnt of the past: the bearings it accepts go into a graph, each under the
-/// landmark that the filter takes it to be of. What it says of the present is the filter's alone, to the last bit.
+/// Adds estimates of past poses to a filter. The bearings that the filter accepts go into a graph, each with the
+/// filter's landmark as its identity. Estimates of the present are exactly those of the filter.
 ///
-/// It begins with the drive: a filter that starts from a map has another frame.
+/// The graph starts with the drive, since a filter that starts from a map has another frame.
 ///
-/// Thread contract: thread-bound. Allocates: the graph grows.
+/// Thread contract: thread-bound. Allocates memory, since the graph grows.
 class WithHindsight final : public Estimator {
  public:
-  /// All distances may be off by `sigma_scale_distance`, which no bearing tells: what is told of the past has it in it.
+  /// `sigma_scale_distance` is the standard deviation of the scale of all distances, which bearings cannot reveal. The
+  /// covariances of past poses include it.
   WithHindsight(std::unique_ptr<Estimator> filter, const Rig& rig, const KnownNamesSettings& settings,
                 double sigma_scale_distance);
 
   bool odometry_begins(bool goes_on) override { return filter_->odometry_begins(goes_on); }
   void predict(const Motion& motion) override;
   void update(const BearingSet& bearings) override;
-  /// Once concluded, with the landmarks where the graph has them.
+  /// The filter's estimate; after conclude(), with the landmark positions of the graph.
   void estimate(Estimate& out) const override;
   void look_ahead(const Motion& motion, Estimate& out) const override { filter_->look_ahead(motion, out); }
   void expect(std::vector<ExpectedBearing>& out) const override { filter_->expect(out); }
   std::optional<CameraErrors> camera_errors() const override { return filter_->camera_errors(); }
   RigFinding rig_finding() const override { return filter_->rig_finding(); }
-  /// Once concluded, what the filter would save, of the landmarks that the graph has, where it has them; but a map of
-  /// landmarks with heights is saved as the filter has it.
+  /// The map that the filter would save. After conclude(), the map has only landmarks that are in the graph, with the
+  /// graph's estimates. A map of landmarks with heights is saved as the filter has it.
   bool save_map(MapSnapshot& out) const override;
   bool write_past(std::vector<PastPose>& out) const override;
   bool write_path(std::vector<PathPose>& out) const override;
-  /// The filter has found out how the camera is mounted: the graph is made anew by that.
+  /// Rebuilds the graph with the filter's camera calibration, if there is one, and optimises it.
   void conclude() override;
 
  private:
-  /// What the filter made of one image.
+  /// One image as the filter processed it.
   struct Image {
-    BearingSet accepted;                // azimuths in the camera's frame, identities those of the filter's landmarks
-    std::vector<Motion> motions;        // since the one before
-    std::optional<PoseGaussian> found;  // where the robot, which had been lost, was found
+    BearingSet accepted;                // azimuths in the camera's frame; identities: the filter's landmark ids
+    std::vector<Motion> motions;        // since the image before
+    std::optional<PoseGaussian> found;  // pose at which a lost robot was relocalised
   };
 
   void add(const Image& image);

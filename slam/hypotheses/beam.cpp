@@ -11,7 +11,7 @@
 namespace azimuth {
 namespace {
 
-// Two members have the robot at different places beyond this, by 3 degrees of freedom (99 %).
+// Threshold beyond which two members count as having the robot at different poses (99 % for three degrees of freedom).
 constexpr double kElsewhereChi2 = 11.34;
 
 }  // namespace
@@ -97,7 +97,7 @@ std::vector<std::size_t> Beam::from_best_to_worst() const {
   return order;
 }
 
-/// The worst leave.
+/// Removes the worst members when the map has grown.
 void Beam::narrow() {
   const std::vector<std::size_t> order = from_best_to_worst();
   const std::size_t landmarks = std::max<std::size_t>(members_[order.front()].landmarks().size(), 1);

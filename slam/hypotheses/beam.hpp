@@ -12,53 +12,54 @@ namespace azimuth {
 
 struct BeamSettings {
   HypothesisSettings hypothesis;
-  int members = 16;  ///< to begin with
-  /// The work of an image grows with the map, so the beam narrows: members times the landmarks of the best one are at
-  /// most this, but there are never fewer than the fewest.
+  int members = 16;  ///< at the start
+  /// The cost of an image grows with the map, so the number of members shrinks: members times landmarks of the best
+  /// member is at most `most_landmarks`, but at least `fewest_members` stay.
   int most_landmarks = 480;
   int fewest_members = 4;
-  int images_between_resampling = 12;  ///< 0: never, and the beam stays as wide as it is
-  int images_between_loops = 8;        ///< in which a member looks for itself in its own map, by turns; 0: never
-  double resampled_share = 1.0 / 3.0;  ///< the worst, which become copies of the best
+  int images_between_resampling = 12;  ///< 0: never; the number of members then stays constant
+  int images_between_loops = 8;        ///< each member tries a loop closure once in so many images; 0: never
+  double resampled_share = 1.0 / 3.0;  ///< share of the worst members, which become copies of the best
   double temperature = 30.0;           ///< a member's weight is exp(-energy / temperature)
 };
 
-/// For a camera of this noise and view. Through a narrow view energies do not rank maps: those that make two landmarks
-/// of different things one are cheap, and the more members are chosen from, the worse is the best one. So all go on by
-/// themselves, and count the same.
+/// Settings for a camera of this noise and field of view. Through a narrow view, energies do not rank maps: a map that
+/// merges different landmarks is cheap, and the more members there are to choose from, the worse is the best one.
+/// Members are therefore never resampled and have equal weights.
 BeamSettings beam_settings_for(double sigma_bearing_rad, double field_of_view_rad);
 
-/// Hypotheses that differ, side by side. What is said is the mixture of all of them (SPEC VI.20).
+/// A beam of different hypotheses. Its estimate is the mixture of all members (mathematics VI.20).
 ///
-/// Thread contract: thread-bound; work is spread as `workers` do. Same calls, same bits, whatever the workers.
+/// Thread contract: thread-bound; work is distributed by `workers`. The same calls give the same bits, regardless of
+/// the workers.
 class Beam {
  public:
   explicit Beam(const BeamSettings& settings);
 
-  /// All members begin from a saved map: see Hypothesis.
+  /// Starts all members from a saved map: see Hypothesis.
   void remember(const MapSnapshot& map, const Eigen::Matrix3d& moved);
   void begin(std::span<const NamelessSighting> sightings);
   void add_image(const Motion& motion, std::span<const NamelessSighting> sightings, Workers& workers,
                  double after_s = 1.0);
 
-  /// All members forget these images, ascending: see Hypothesis.
+  /// Removes these images, ascending, from all members: see Hypothesis.
   void forget(std::span<const PoseId> images, Workers& workers);
 
-  /// In no order.
+  /// The members, in no particular order.
   const std::vector<Hypothesis>& members() const { return members_; }
   const Hypothesis& best() const { return members_[best_]; }
   double best_energy() const { return energies_[best_]; }
   PoseId images() const { return best().images(); }
 
   using PoseBelief = BelievedPose;
-  /// Of all members together, where each says where it has the robot.
+  /// Mixture of the poses that `of_member` returns for each member, by the members' weights.
   PoseBelief mixture(const std::function<PoseBelief(const Hypothesis&)>& of_member) const;
   PoseBelief newest_pose() const { return newest_; }
 
-  /// By how much the best member's energy is below that of the best one that has the robot somewhere else; infinite
-  /// when none has. Little: several maps explain what was seen.
+  /// Difference in energy between the best member and the best of the members whose robot pose clearly differs from it;
+  /// infinite when there is no such member. A small gap means that several maps explain the bearings.
   double gap() const { return gap_; }
-  /// The weight of all those.
+  /// Total weight of the members whose robot pose clearly differs from that of the best member.
   double elsewhere() const { return elsewhere_; }
 
  private:

@@ -6,21 +6,23 @@
 
 namespace azimuth {
 
-/// Where the robot is thought to be.
+/// Estimated pose of the robot.
 struct BelievedPose {
   Pose2 T_map_body;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, heading), in the map
 };
 
-/// By how much (x, y, heading) of `to` are more than those of `from`, the heading the shorter way round.
+/// Difference `to` - `from` in (x, y, heading), with the heading wrapped.
 Eigen::Vector3d pose_difference(const Pose2& from, const Pose2& to);
 
-/// Mean and covariance of several beliefs, whose weights sum to one: what each says of itself, and how far they are
-/// apart. Headings are averaged as seen from `centre`, one of them. Thread contract: reentrant.
+/// Mean and covariance of a mixture of beliefs, whose weights sum to one. The covariance contains each belief's own
+/// covariance and the spread of the means. Headings are averaged relative to `centre`, one of the poses. Thread
+/// contract: reentrant.
 BelievedPose mixture(std::span<const BelievedPose> beliefs, std::span<const double> weights, const Pose2& centre);
 
-/// Of two answers, the first of which is wrong with this probability, and then the second is right: told as the pose
-/// that is `share` of the way from one to the other, and how far off that is. Thread contract: reentrant.
+/// Combines two answers: `first` is wrong with probability `first_wrong`, and then `second` is right. The returned pose
+/// lies `share` of the way from `first` to `second`; the covariance is that of the mixture about this pose. Thread
+/// contract: reentrant.
 BelievedPose one_of_two(const BelievedPose& first, const BelievedPose& second, double first_wrong, double share);
 
 }  // namespace azimuth

@@ -6,7 +6,7 @@
 
 namespace azimuth {
 
-/// That a bearing is of a landmark, and what that costs.
+/// A possible pair of bearing and landmark, and its cost.
 struct CostlyPair {
   double cost = 0.0;
   BearingId bearing = 0;
@@ -14,15 +14,15 @@ struct CostlyPair {
 };
 
 struct ClearPairsSettings {
-  double alone = 0.0;      ///< what a bearing of nothing costs
-  double dearest = 0.0;    ///< no pair that costs more
-  double rival_gap = 0.0;  ///< by which other ways to give away what a pair has must be dearer
+  double alone = 0.0;      ///< cost of an unassociated bearing
+  double dearest = 0.0;    ///< maximum cost of an accepted pair
+  double rival_gap = 0.0;  ///< minimum extra cost of every alternative to a pair
 };
 
-/// For each of the `bearings` bearings of one image, from `first` on, its landmark, or kOfNothing. Cheapest first, one
-/// to one. A pair is clear when every other way to give away its bearing or its landmark costs more by the gap, what
-/// that does to the pair it is taken from included; what is not clear is left out. Pairs between the dearest and that
-/// plus the gap count as rivals. Thread contract: reentrant.
+/// Returns the landmark, or kOfNothing, for each of the `bearings` bearings of one image, from `first` on. Pairs are
+/// chosen one to one, cheapest first. A chosen pair is clear when every alternative use of its bearing or landmark
+/// costs more by `rival_gap`, including the effect on the pair that the alternative breaks up. Unclear pairs are left
+/// out. Pairs that cost up to `dearest + rival_gap` count as rivals. Thread contract: reentrant.
 std::vector<LandmarkId> clear_pairs(std::vector<CostlyPair> pairs, BearingId first, std::size_t bearings,
                                     const ClearPairsSettings& settings);
 

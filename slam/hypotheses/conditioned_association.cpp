@@ -11,10 +11,10 @@ namespace {
 
 struct ScoredPair {
   std::size_t bearing = 0, landmark = 0;
-  double surplus = ImageReading::kNever;  // of the margin over that which is asked for; kNever: there is no pair
+  double surplus = ImageReading::kNever;  // margin minus the required margin; kNever: no pair
 };
 
-/// Best and second best of each row and column, then the pair that is furthest ahead of both.
+/// Finds the pair with the largest surplus over the best rivals of its bearing and of its landmark.
 ScoredPair clearest_pair(const ImageReading& reading, const ConditionedAssociationSettings& settings) {
   struct Two {
     double best = ImageReading::kNever, second = ImageReading::kNever;
@@ -42,7 +42,7 @@ ScoredPair clearest_pair(const ImageReading& reading, const ConditionedAssociati
   return best;
 }
 
-/// Whether a bearing is of nothing that might have been of something.
+/// Whether a bearing is still undecided that could belong to a landmark.
 bool leaves_open(const ImageReading& end, const ImageReading& start) {
   for (std::size_t i = 0; i < start.bearings(); ++i)
     for (std::size_t j = 0; j < start.landmarks(); ++j)

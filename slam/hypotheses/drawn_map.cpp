@@ -9,16 +9,16 @@
 namespace azimuth {
 namespace {
 
-constexpr int kClutter = -1, kNew = -2;  // what a bearing may be of beside a landmark
+constexpr int kClutter = -1, kNew = -2;  // results of choose() beside an index of choices_
 constexpr double kBearingGateChi2 = 9.0;
-// What should have been seen so many times, and more often than it was seen, is not there.
+// A landmark is removed when the images that missed it are more than this and more than the images that showed it.
 constexpr int kMostMissed = 12;
-// By how many standard deviations of its azimuth a landmark must be in view to be missed.
+// Number of standard deviations of its azimuth by which a landmark must be in view to count as missed.
 constexpr double kSurelyInView = 1.5;
 
 }  // namespace
 
-/// The noise moves the robot and not the landmarks, which lie to it otherwise then.
+/// The noise of the motion moves the robot but not the landmarks, so it changes the landmarks relative to the robot.
 void DrawnMap::move(const Motion& motion) {
   const MovedPose moved = apply(pose_, motion);
   pose_ = moved.T_map_body;
@@ -31,7 +31,7 @@ void DrawnMap::move(const Motion& motion) {
   P_.noalias() += by_noise * (moved.noise * by_noise.transpose());
 }
 
-/// What shifting the landmark, and turning it about the robot, does to its (alpha, rho) in a chart that stays.
+/// d(alpha, rho) / d(shift of the landmark, turn about the robot), in a chart that stays fixed.
 Eigen::Matrix<double, 2, 3> DrawnMap::by_moving_all(const SmoothedLandmark& landmark) const {
   const double rho = landmark.inverse_distance_per_m;
   const Eigen::Vector2d &u = landmark.direction, away = landmark.p_map_chart - pose_.position();
@@ -100,7 +100,8 @@ double DrawnMap::take(std::span<const NamelessSighting> sightings, const DrawnMa
   return log_density;
 }
 
-/// Returns ln of the density of such a bearing. `chosen`: kClutter, kNew, or an index of choices_.
+/// Draws the association of a bearing and returns ln of its density. `chosen` is kClutter, kNew, or an index of
+/// choices_.
 double DrawnMap::choose(const NamelessSighting& sighting, const DrawnMapSettings& settings, double now_s,
                         const std::vector<char>& taken, Draws& draws, int& chosen) {
   const double vague_rad = settings.vague_share_of_view * settings.hypothesis.scene.field_of_view_rad;
@@ -137,7 +138,7 @@ void DrawnMap::correct(const Choice& choice) {
   P_.noalias() -= PH * (PH.transpose() / choice.variance);
 }
 
-/// Charts go along with the robot.
+/// Applies a correction. The charts move along with the robot.
 void DrawnMap::move_by(const Eigen::VectorXd& step) {
   const Eigen::Vector2d from = pose_.position(), to = from + step.head<2>();
   const Eigen::Matrix2d turn = rotation(step(2));
@@ -150,7 +151,8 @@ void DrawnMap::move_by(const Eigen::VectorXd& step) {
   pose_ = {to.x(), to.y(), wrap(pose_.heading_rad + step(2))};
 }
 
-/// Its chart begins where the robot is, so that how it lies to the robot depends on nothing else.
+/// Adds a landmark with its chart origin at the robot, so that its position relative to the robot depends on nothing
+/// else.
 std::size_t DrawnMap::add_landmark(const NamelessSighting& sighting, const DrawnMapSettings& settings) {
   const Index n = P_.rows();
   P_.conservativeResize(n + 2, n + 2);

@@ -11,30 +11,32 @@
 
 namespace azimuth {
 
-/// How maps are drawn (SPEC VI.31).
+/// Settings of drawn maps (mathematics VI.31).
 struct DrawnMapSettings {
-  /// Of these, the scene, the landmarks' prior and least distance, and how tracks begin and end.
+  /// Only the scene, the prior and least distance of landmarks, and the conditions under which tracks start and end are
+  /// used.
   HypothesisSettings hypothesis;
-  /// A bearing closes no loop where it is predicted no better than to this share of the field of view, standard
-  /// deviation: what else stands there nobody knows.
+  /// A bearing whose predicted azimuth has a standard deviation above this share of the field of view closes no loop,
+  /// since unknown landmarks may lie in the same direction.
   double vague_share_of_view = 0.25;
-  int most_landmarks = 100;  ///< those out of sight for longest are forgotten
+  int most_landmarks = 100;  ///< above this number, landmarks unseen for longest are removed
 };
 
 using Draws = RandomNumbers<Xoshiro>;
 
-/// A map of landmarks all alike, and the robot in it: one joint Gaussian, in which it was drawn by the odds what each
-/// bearing is of (SPEC VI.31). That many such maps differ says what is not known. Errors are invariant ones (VI.2):
-/// what is seen never says anything of how the whole map lies.
+/// A map of landmarks that all look alike, and the robot's pose: one joint Gaussian. The association of each bearing
+/// was drawn at random by its odds (mathematics VI.31), so the differences between many such maps show the uncertainty
+/// of the association. Errors are invariant ones (VI.2): bearings never carry information on the pose of the whole map.
 ///
-/// Thread contract: thread-bound. Same calls, same bits. Copies are deep.
+/// Thread contract: thread-bound. The same calls give the same bits. Copies are deep.
 class DrawnMap {
  public:
   DrawnMap() : P_(Eigen::MatrixXd::Zero(kPose, kPose)) {}
 
-  /// The robot moved.
+  /// Adds a motion of the robot.
   void move(const Motion& motion);
-  /// Draws what each of an image's bearings is of, and takes it in. Returns ln of the density of having seen that.
+  /// Draws the association of each of an image's bearings and updates the map. Returns ln of the probability density of
+  /// the image.
   double take(std::span<const NamelessSighting> sightings, const DrawnMapSettings& settings, double now_s,
               Draws& draws);
 
@@ -42,8 +44,8 @@ class DrawnMap {
   Eigen::Matrix3d pose_covariance() const { return P_.topLeftCorner<3, 3>(); }  ///< of (x, y, heading), in the map
   std::size_t landmarks() const { return landmarks_.size(); }
   const SmoothedLandmark& landmark(std::size_t i) const { return landmarks_[i].where; }
-  /// Of the pose's (x, y, heading), then of each landmark's (alpha, rho), as it lies to the robot: an error of the pose
-  /// moves and turns the whole map along with it, and is no error of a landmark.
+  /// Covariance of the pose's (x, y, heading), then of each landmark's (alpha, rho) relative to the robot. An error of
+  /// the pose moves and turns the whole map, and is no error of a landmark.
   const Eigen::MatrixXd& covariance() const { return P_; }
 
  private:
@@ -53,15 +55,15 @@ class DrawnMap {
   struct Landmark {
     SmoothedLandmark where;
     Kind kind = kAnyKind;
-    int sightings = 1, missed = 0;  // missed: in images that should have shown it
-    double seen_s = 0.0;            // last
+    int sightings = 1, missed = 0;  // missed: images since the last bearing that should have shown the landmark
+    double seen_s = 0.0;            // time of the last bearing
   };
-  /// A bearing of a landmark, predicted.
+  /// The predicted azimuth of a landmark.
   struct Predicted {
     double azimuth_rad = 0.0, variance = 0.0;
     Eigen::Vector2d by_landmark = Eigen::Vector2d::Zero();  // (alpha, rho)
   };
-  /// What a bearing may be of.
+  /// A candidate landmark for a bearing.
   struct Choice {
     std::size_t landmark = 0;
     double density = 0.0, off_rad = 0.0, variance = 0.0;
@@ -82,7 +84,7 @@ class DrawnMap {
   Pose2 pose_;
   Eigen::MatrixXd P_;
   std::vector<Landmark> landmarks_;
-  std::vector<Choice> choices_;  // storage
+  std::vector<Choice> choices_;  // temporary storage
 };
 
 }  // namespace azimuth

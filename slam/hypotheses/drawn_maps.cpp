@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 15;
 
-/// Sum to one.
+/// Weights that sum to one.
 std::vector<double> weights_of(std::span<const double> log_weights) {
   const double most = *std::ranges::max_element(log_weights);
   std::vector<double> weights;
@@ -62,7 +62,7 @@ void DrawnMaps::weigh(Population& population) {
   if (of_squares * static_cast<double>(weights.size()) > 2.0) resample(population);
 }
 
-/// Systematic: of weight w between floor(n w) and ceil(n w) copies.
+/// Systematic resampling: a map of weight w gets floor(n w) or ceil(n w) copies.
 void DrawnMaps::resample(Population& population) {
   const std::vector<double> weights = weights_of(population.log_weights);
   const auto count = static_cast<double>(weights.size());

@@ -10,24 +10,25 @@ namespace azimuth {
 
 struct DrawnMapsSettings {
   DrawnMapSettings map;
-  int populations = 16, members = 10;  ///< of each population
+  int populations = 16, members = 10;  ///< members: maps per population
 };
 
-/// Where the robot is, by many drawn maps (SPEC VI.31): populations side by side. Within one, maps that predict badly
-/// give way to copies of those that predict well; between them nothing is exchanged, so that their mean and spread
-/// stay those of independent answers.
+/// Pose of the robot from many drawn maps (mathematics VI.31), in parallel populations. Within a population, maps that
+/// predict badly are replaced by copies of maps that predict well. Populations exchange nothing, so their mean and
+/// spread are those of independent answers.
 ///
-/// Thread contract: thread-bound; work is spread as `workers` do. Same calls, same bits, whatever the workers.
+/// Thread contract: thread-bound; work is distributed by `workers`. The same calls give the same bits, regardless of
+/// the workers.
 class DrawnMaps {
  public:
   explicit DrawnMaps(const DrawnMapsSettings& settings);
 
-  /// The first image, from where the map begins.
+  /// Adds the first image, at the start of the map.
   void begin(std::span<const NamelessSighting> sightings, Workers& workers);
-  /// The next one, at the end of `motion`, so long after the last one.
+  /// Adds the next image, at the end of `motion` and `after_s` after the image before.
   void add_image(const Motion& motion, std::span<const NamelessSighting> sightings, Workers& workers, double after_s);
 
-  /// At the last image.
+  /// Pose at the last image.
   BelievedPose pose() const { return belief_; }
 
  private:

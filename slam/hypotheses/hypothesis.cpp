@@ -9,11 +9,11 @@
 namespace azimuth {
 namespace {
 
-// A new pair whose residual is beyond this after all was a mistake.
+// A new pair whose squared residual exceeds this after optimisation is dropped.
 constexpr double kDropBeyondChi2 = 16.0;
-// What came before the window is decided about anew each so many images.
+// Images before the window are associated anew once in so many images.
 constexpr PoseId kImagesBetweenWholeReviews = 10;
-// Landmarks at so many times the distance at which they are asked after are thought of, as poses may move.
+// Factor on asked_within_m() for the landmarks taken into account, since poses may move.
 constexpr double kReach = 1.5;
 
 SmootherSettings with_kernel(SmootherSettings settings, RobustKernel kernel) {
@@ -111,7 +111,7 @@ void Hypothesis::associate(std::span<const NamelessSighting> sightings) {
   ConditionedAssociationSettings settings;
   settings.scene = settings_.scene;
   settings.min_distance_m = settings_.smoother.min_distance_m;
-  settings.reads_whole = !settings_.tracks.used;  // else it is a landmark for now, and may be made one with another
+  settings.reads_whole = !settings_.tracks.used;  // else an unassociated bearing becomes a landmark for now
   if (settings_.tracks.used)
     for (const LandmarkId id : near)
       settings.margins.push_back(is_fresh(id) ? settings_.tracks.fresh_margin : settings.min_margin);
@@ -131,8 +131,9 @@ void Hypothesis::associate(std::span<const NamelessSighting> sightings) {
   if (dropped) smoother_.optimise();
 }
 
-/// Those that one of the images from `since` on may be of, even if it moves. Covariances of all others cost time, and
-/// tell nothing that is asked. Through a narrow view also what was seen long ago may be one with what is near.
+/// The landmarks that the images from `since` on may show, even if their poses move. Leaving out the others saves the
+/// time for their covariances. Through a narrow view these are all landmarks, since a landmark seen long ago may be
+/// merged with a near one.
 std::vector<LandmarkId> Hypothesis::landmarks_near(PoseId since) const {
   if (settings_.tracks.used) return landmarks_;
   const double reach_m = kReach * settings_.scene.asked_within_m();

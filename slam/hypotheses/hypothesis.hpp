@@ -15,30 +15,30 @@
 
 namespace azimuth {
 
-/// Of pairs that may be wrong: they pull less than those of known names do.
+/// Smoother settings for associations that may be wrong. Outliers get less weight than with known identities.
 inline SmootherSettings doubting_smoother() {
   SmootherSettings settings;
   settings.kernel_width = 2.0;
   return settings;
 }
 
-/// How landmarks are found by cameras that see ahead only: too little of what they see is seen again within a few
-/// images for landmarks to be found by bearings of several of them together.
+/// Initialisation of landmarks for cameras with a narrow field of view. Such a camera sees few landmarks again within a
+/// few images, so a landmark cannot be found from bearings of several images together.
 struct TrackSettings {
   bool used = false;
-  double fresh_s = 3.0;             ///< for how long a landmark is expected where it was
-  std::size_t fewest_bearings = 4;  ///< else it is gone by then
-  double extra_merge_margin = 0.0;  ///< added to each member's
-  double fresh_margin = 0.5;        ///< ln of the odds that a bearing is of a fresh landmark, against the best rival
+  double fresh_s = 3.0;             ///< a landmark is fresh for this long after its last bearing
+  std::size_t fewest_bearings = 4;  ///< a landmark with fewer bearings is removed when no longer fresh
+  double extra_merge_margin = 0.0;  ///< added to MemberSettings::merge_margin
+  double fresh_margin = 0.5;        ///< ln of the odds for a bearing of a fresh landmark, against the best rival
 };
 
-/// When a robot that can tell little of what it sees looks for itself in its own map.
+/// Conditions under which a hypothesis searches its own map for the robot (loop closure).
 struct LoopSettings {
-  PoseId images = 12;           ///< the newest ones, that are read anew
-  double well_explained = 0.6;  ///< share of their bearings; where more are of something, it does not look
+  PoseId images = 12;           ///< number of newest images that are associated anew
+  double well_explained = 0.6;  ///< no search when more than this share of these images' bearings is associated
 };
 
-/// What all hypotheses of a beam have in common.
+/// Settings shared by all hypotheses of a beam.
 struct HypothesisSettings {
   Scene scene;
   SmootherSettings smoother = doubting_smoother();
@@ -47,68 +47,73 @@ struct HypothesisSettings {
   HypothesisCosts costs = hypothesis_costs(scene, smoother);
 };
 
-/// For a camera of this noise and view. A narrow view sees less of what is there, and that from further away.
+/// Settings for a camera of this noise and field of view. Through a narrow view, the camera detects a smaller share of
+/// the landmarks and sees them from further away.
 HypothesisSettings hypothesis_settings_for(double sigma_bearing_rad, double field_of_view_rad);
 
-/// One answer to the question which bearing is of which landmark, and the path and map that follow (SPEC VI.20). It is
-/// corrected when later images speak against it. Each image makes one pose, with the same number.
+/// One data association of all bearings with landmarks, and the path and map that follow from it (mathematics VI.20).
+/// The association is corrected when later images contradict it. Each image makes one pose, which has the image's
+/// number.
 ///
-/// Copies are cheap, and share what they have in common. Thread contract: thread-bound. Same calls, same bits.
+/// Copies are cheap and share equal parts. Thread contract: thread-bound. The same calls give the same bits.
 class Hypothesis {
  public:
   Hypothesis(const HypothesisSettings& settings, const MemberSettings& member);
 
-  /// Begins from a saved map, before anything else: see azimuth::remember(). Its landmarks stay, however little is seen
-  /// of them, and have the numbers from 0 on.
+  /// Starts from a saved map: see azimuth::remember(). This must be the first call. The map's landmarks are never
+  /// removed and get the numbers from 0 on.
   void remember(const MapSnapshot& map, const Eigen::Matrix3d& moved);
-  /// The first image, from where the map begins; without bearings, when there is a saved map.
+  /// Adds the first image, at the start of the map. With a saved map it has no bearings.
   void begin(std::span<const NamelessSighting> sightings);
-  /// The next image, at the end of `motion`, whose covariance is positive definite, so long after the last one.
+  /// Adds the next image, at the end of `motion` and `after_s` after the image before. The motion's covariance must be
+  /// positive definite.
   void add_image(const Motion& motion, std::span<const NamelessSighting> sightings, double after_s = 1.0);
 
-  /// Where little of the last images is explained, looks for the robot in its own map by all of them together, and when
-  /// the path bent to that has the lower energy, takes it over and says true. May take as long as several images.
+  /// Tries to close a loop. If few bearings of the last images are associated, the hypothesis searches its own map for
+  /// the robot, with all these images together. It accepts the corrected path and returns true when that lowers the
+  /// energy. May take as long as several images.
   bool close_loop();
 
-  /// What decides between hypotheses; lower is better.
+  /// The cost that ranks hypotheses; lower is better.
   double energy() const;
-  /// How often a landmark should have been seen, from its first bearing until a while after its last one, and was not.
+  /// Number of missed detections over all landmarks: images in which a landmark should have been seen and was not.
+  /// Counted are the images from the landmark's first bearing until some images after its last bearing.
   int missed() const;
-  /// From now on it decides by this scene; what things cost stays.
+  /// Uses this scene for all later decisions. The costs stay the same.
   void expect(const Scene& scene) { settings_.scene = scene; }
-  /// Decides from outside, as of a name; kOfNothing: of none. Images to come may decide otherwise.
+  /// Assigns a bearing to a landmark from outside; kOfNothing: to no landmark. Later images may change the association.
   void assign(BearingId bearing, LandmarkId landmark);
-  /// These images are no more, as are landmarks of which hardly a bearing is left: see BearingGraph. Members of a beam
-  /// must forget the same, or their energies would be of different things.
+  /// Removes these images, and landmarks that keep hardly any bearing: see BearingGraph. All members of a beam must
+  /// remove the same images, so that their energies stay comparable.
   void forget(std::span<const PoseId> images);
-  /// Becomes another hypothesis, but goes on deciding as itself.
+  /// Copies another hypothesis, but keeps its own MemberSettings.
   void adopt(const Hypothesis& other);
 
   const Scene& scene() const { return settings_.scene; }
   const Smoother& smoother() const { return smoother_; }
   const BearingGraph& graph() const { return smoother_.graph(); }
-  /// Those that bearings are of, in the order in which they were found.
+  /// The landmarks of the map, in the order in which they were found.
   const std::vector<LandmarkId>& landmarks() const { return landmarks_; }
   PoseId images() const { return time_s_.size(); }
   bool has_saved_map() const { return !graph().remembered().landmarks.empty(); }
-  /// What sort of thing it is, as far as a bearing of it tells.
+  /// Kind of the landmark, as far as its bearings tell.
   Kind kind_of(LandmarkId id) const;
-  /// Bearings of an image: from this one up to that of the next image.
+  /// The image's first bearing; its bearings end before the next image's first one.
   BearingId first_bearing(PoseId image) const { return graph().first_bearing_of(image); }
 
  private:
-  /// Bearings that may be of one thing not mapped yet; newest first.
+  /// A candidate for a new landmark: bearings that may belong to it, newest first.
   struct Track {
     std::vector<BearingId> bearings;
     Kind kind = kAnyKind;
     SmoothedLandmark landmark;
-    Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // of (alpha, rho), the newest pose taken as exact
+    Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // of (alpha, rho), relative to the newest pose
     double log_ratio = 0.0;
   };
-  /// One that was found in this image: the belief does not know it.
+  /// A landmark that was found in the current image and is not in the WindowBelief.
   struct Grown {
     LandmarkId landmark;
-    Eigen::Matrix2d covariance;  // of (x, y), the newest pose taken as exact
+    Eigen::Matrix2d covariance;  // of (x, y), relative to the newest pose
   };
 
   void add_sightings(std::span<const NamelessSighting> sightings);
@@ -116,7 +121,7 @@ class Hypothesis {
   std::vector<LandmarkId> landmarks_near(PoseId since) const;
   PoseId window_start() const { return std::max(0, images() - member_.window); }
 
-  // GROW
+  // New landmarks from bearings of several images (hypothesis_growth.cpp).
   void grow(const WindowBelief& belief, PoseId oldest_anchor);
   std::vector<Track> find_tracks(const WindowBelief& belief, PoseId oldest_anchor, double min_log_ratio) const;
   void find_tracks_from(const WindowBelief& belief, PoseId anchor, BearingId bearing, double min_log_ratio,
@@ -124,13 +129,13 @@ class Hypothesis {
   bool walk(const WindowBelief& belief, Track& track, PoseId anchor, PoseId second) const;
   bool update_track(Track& track, PoseId pose, BearingId bearing, const WindowBelief& belief,
                     double& log_density) const;
-  void plant(const Track& track);
-  /// Density by angle of all bearings, in the mean of all images.
+  void initialise(const Track& track);
+  /// Mean number of bearings per image and radian, over all images.
   double bearings_per_rad() const;
-  /// How many bearings are of a landmark, from this image on.
+  /// Number of associated bearings from this image on.
   BearingId explained(PoseId since = 0) const;
 
-  // TRACKS
+  // Landmarks through a narrow view (hypothesis_tracks.cpp).
   void begin_tracks();
   void end_tracks();
   void merge();
@@ -138,12 +143,12 @@ class Hypothesis {
   bool is_fresh(LandmarkId id) const;
   bool is_established(LandmarkId id) const;
 
-  // LOOPS
+  // Loop closure (hypothesis_loops.cpp).
   std::vector<LandmarkId> mapped_before(PoseId image, std::vector<MappedBefore>& map) const;
   std::vector<ImageToRead> images_to_read(PoseId since) const;
   void take_over(const Reading& reading, PoseId since, std::span<const LandmarkId> map);
 
-  // REASSOCIATE
+  // Data association in hindsight (hypothesis_reassociation.cpp).
   void reassociate(const WindowBelief& belief, PoseId from);
   bool reassociate_image(const WindowBelief& belief, PoseId image);
   void remove_weak_landmarks();
@@ -156,10 +161,10 @@ class Hypothesis {
   HypothesisSettings settings_;
   MemberSettings member_;
   Smoother smoother_;
-  SharedPages<double> time_s_;  // of each image, since the first
+  SharedPages<double> time_s_;  // time of each image since the first
   bool has_kinds_ = false;
-  SharedPages<Kind> kinds_;             // of each bearing
-  std::vector<Kind> remembered_kinds_;  // of each landmark of a saved map
+  SharedPages<Kind> kinds_;             // per bearing
+  std::vector<Kind> remembered_kinds_;  // per landmark of a saved map
   std::vector<LandmarkId> landmarks_;
   std::vector<Grown> grown_;
 };

@@ -1,4 +1,4 @@
-// What a hypothesis costs (SPEC VI.20).
+// The cost of a hypothesis (mathematics VI.20).
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,8 @@
 namespace azimuth {
 namespace {
 
-// A landmark that is never seen again is missed in so many images, and then taken for gone.
+// Number of images after a landmark's last bearing in which it can count as missed. After that the landmark counts as
+// gone.
 constexpr PoseId kMissedAfterLast = 12;
 
 }  // namespace
@@ -22,8 +23,6 @@ double Hypothesis::energy() const {
   return energy + member_.missed_scale * settings_.costs.missed * missed();
 }
 
-/// Over all landmarks, images from its first bearing until a while after its last one in which it should have been seen
-/// and was not.
 int Hypothesis::missed() const {
   struct Stand {
     Eigen::Vector2d p, forwards;

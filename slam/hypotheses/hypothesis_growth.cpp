@@ -1,4 +1,4 @@
-// Landmarks that are not mapped yet, found by bearings of several images together (SPEC VI.20).
+// New landmarks, found from bearings of several images together (mathematics VI.20).
 
 #include <algorithm>
 #include <cmath>
@@ -18,20 +18,21 @@ constexpr double kGateChi2 = 9.0;
 constexpr double kNearest_m = 0.3;
 constexpr double kAnyRatio = -std::numeric_limits<double>::infinity();
 
-/// Whether a crowd of bearings is of things or of nothing is not known: half way, by logarithms, between what a scene
-/// is expected to have of it and all there is.
+/// Geometric mean of the expected density and the density of all bearings. It is unknown whether a crowd of bearings
+/// belongs to landmarks or is clutter.
 double between(double expected_per_rad, double all_per_rad) {
   return std::sqrt(expected_per_rad * std::max(expected_per_rad, all_per_rad));
 }
 
 }  // namespace
 
-/// A set of landmarks that come one after the other, each decided about with all bearings of the window. Those that
-/// would be refused alone may be right together.
+/// Tries sets of new landmarks. Landmarks are added to a set one after the other, each decided with all bearings of the
+/// window, because landmarks that would be rejected alone may be right together.
 ///
-/// Where much is seen at once and odometry turns by more than bearings are apart, no track stands against chance: what
-/// makes one likelier than another is the pose that other tracks ask for. There, when a whole window has begun no map,
-/// the likeliest are tried nevertheless, and bearings explained by them count for less.
+/// Where many landmarks are seen at once and the error of odometry's turns exceeds the angle between neighbouring
+/// bearings, no single track beats chance; a track becomes likely only at the pose that other tracks suggest. If a
+/// whole window has started no map, the most likely tracks are tried nevertheless, and the bearings that they explain
+/// count for less.
 void Hypothesis::grow(const WindowBelief& belief, PoseId oldest_anchor) {
   std::vector<Track> first_tracks = find_tracks(belief, oldest_anchor, member_.min_log_ratio);
   HypothesisCosts costs = settings_.costs;
@@ -54,10 +55,10 @@ void Hypothesis::grow(const WindowBelief& belief, PoseId oldest_anchor) {
     WindowBelief path;
     double cost;
   };
-  // What is planted ties the window's poses to each other, and makes clearer what else is there.
-  const auto planted = [&](const Hypothesis& from, const Track& track) {
+  // A new landmark ties the window's poses to each other and so makes further tracks clearer.
+  const auto initialised = [&](const Hypothesis& from, const Track& track) {
     Hypothesis next = from;
-    next.plant(track);
+    next.initialise(track);
     next.smoother_.optimise();
     next.reassociate(belief, window_start());
     WindowBelief path(next.smoother_, window_start(), {}, settings_.smoother.min_distance_m);
@@ -67,12 +68,12 @@ void Hypothesis::grow(const WindowBelief& belief, PoseId oldest_anchor) {
   std::optional<Hypothesis> best;
   double best_cost = before - member_.min_fall;
   for (std::size_t i = 0; i < std::min(first_tracks.size(), kFirstTracks); ++i) {
-    Set set = planted(*this, first_tracks[i]);
+    Set set = initialised(*this, first_tracks[i]);
     if (set.cost > before + kFirstMayRaise) continue;
     for (;;) {
       const std::vector<Track> tracks = set.hypothesis.find_tracks(set.path, oldest_anchor, member_.min_log_ratio);
       if (tracks.empty()) break;
-      Set more = planted(set.hypothesis, tracks.front());
+      Set more = initialised(set.hypothesis, tracks.front());
       if (more.cost > set.cost - member_.step_fall) break;
       set = std::move(more);
     }
@@ -83,8 +84,8 @@ void Hypothesis::grow(const WindowBelief& belief, PoseId oldest_anchor) {
   if (best) *this = std::move(*best);
 }
 
-void Hypothesis::plant(const Track& track) {
-  // The oldest bearing's chart: it is seen from there first.
+void Hypothesis::initialise(const Track& track) {
+  // The oldest bearing defines the chart, since the landmark was seen from there first.
   const LandmarkId id = smoother_.add_landmark(track.bearings.back());
   for (const BearingId bearing : track.bearings) smoother_.assign(bearing, id);
   landmarks_.push_back(id);
@@ -102,7 +103,7 @@ BearingId Hypothesis::explained(PoseId since) const {
   return count;
 }
 
-/// Likeliest first.
+/// Returns the tracks, most likely first.
 std::vector<Hypothesis::Track> Hypothesis::find_tracks(const WindowBelief& belief, PoseId oldest_anchor,
                                                        double min_log_ratio) const {
   std::vector<Track> found;
@@ -114,7 +115,7 @@ std::vector<Hypothesis::Track> Hypothesis::find_tracks(const WindowBelief& belie
   return found;
 }
 
-/// Those that `bearing` is the newest of, but for what was found already.
+/// Appends the tracks whose newest bearing is `bearing`, unless they were found already.
 void Hypothesis::find_tracks_from(const WindowBelief& belief, PoseId anchor, BearingId bearing, double min_log_ratio,
                                   std::vector<Track>& found) const {
   const auto is_found = [&found](BearingId one, BearingId other) {
@@ -144,7 +145,7 @@ void Hypothesis::find_tracks_from(const WindowBelief& belief, PoseId anchor, Bea
     }
 }
 
-/// False, with the track as it was, when the bearing is outside its gate.
+/// Adds a bearing to the track. Returns false and leaves the track unchanged when the bearing is outside its gate.
 bool Hypothesis::update_track(Track& track, PoseId pose_id, BearingId bearing, const WindowBelief& belief,
                               double& log_density) const {
   const SmoothedPose& pose = graph().smoothed_pose(pose_id);
@@ -165,7 +166,7 @@ bool Hypothesis::update_track(Track& track, PoseId pose_id, BearingId bearing, c
   return true;
 }
 
-/// Backwards through the window; false: it is not worth a landmark.
+/// Follows the track backwards through the window. Returns false when it is not worth a landmark.
 bool Hypothesis::walk(const WindowBelief& belief, Track& track, PoseId anchor, PoseId second) const {
   const double log_hit = std::log(settings_.scene.detection_probability / bearings_per_rad());
   const double log_miss = std::log1p(-settings_.scene.detection_probability);

@@ -1,4 +1,4 @@
-// Loops that no single image closes (SPEC VI.20).
+// Loop closures that need several images (mathematics VI.20).
 
 #include <algorithm>
 #include <cmath>
@@ -11,13 +11,13 @@
 namespace azimuth {
 namespace {
 
-constexpr std::size_t kFewestBearingsBefore = 3;  // of a landmark, to be one of the map
-constexpr std::size_t kFewestMapped = 5;          // else there is no map to look in
-// How well landmarks lie to each other at best, as a share of the range.
+constexpr std::size_t kFewestBearingsBefore = 3;  // minimum number of bearings of a mapped landmark
+constexpr std::size_t kFewestMapped = 5;          // minimum number of landmarks for a search
+// Minimum relative error between landmarks, as a share of the range.
 constexpr double kMapNoiseShare = 0.02;
-// The search reaches as far as the pose is in doubt, in standard deviations, and by a share of the range beyond.
+// Radius of the search: so many standard deviations of the position plus a share of the range.
 constexpr double kReachSigmas = 3.0, kReachShare = 0.25;
-// A path that is bent a long way is solved in so many turns at most.
+// Maximum number of optimisations, since a path that bends far may need several.
 constexpr int kMostOptimisations = 2;
 
 Motion motion_of(const OdometryMeasurement& odometry) {
@@ -35,8 +35,8 @@ SmoothedLandmark carried(const SmoothedLandmark& landmark, const Pose2& T) {
 
 }  // namespace
 
-/// The landmarks seen before an image or in the map that was saved, and how well each is known beside the others: by
-/// its own bearings, poses taken as known.
+/// Lists the landmarks that were mapped before an image or come from a saved map. The covariance of each is relative to
+/// the other landmarks: that of its own bearings, with the poses taken as known, plus a minimum.
 std::vector<LandmarkId> Hypothesis::mapped_before(PoseId image, std::vector<MappedBefore>& map) const {
   std::vector<LandmarkId> ids;
   const double noise_m = kMapNoiseShare * settings_.scene.range_m;
@@ -84,9 +84,9 @@ bool Hypothesis::close_loop() {
 
   const std::vector<ImageToRead> read = images_to_read(since);
   const double sigma_m = std::sqrt(smoother_.pose_covariance(since).topLeftCorner<2, 2>().trace());
-  const Whereabouts whereabouts{graph().pose(since).position(),
-                                kReachSigmas * sigma_m + kReachShare * settings_.scene.range_m};
-  const std::vector<PoseGaussian> found = find_in_map(map, read, settings_.scene, whereabouts);
+  const PositionPrior position_prior{graph().pose(since).position(),
+                                     kReachSigmas * sigma_m + kReachShare * settings_.scene.range_m};
+  const std::vector<PoseGaussian> found = find_in_map(map, read, settings_.scene, position_prior);
   if (found.empty()) return false;
   Hypothesis other = *this;
   other.take_over(read_backwards(map, read, settings_.scene, settings_.smoother.min_distance_m, found.front()), since,
@@ -96,13 +96,13 @@ bool Hypothesis::close_loop() {
   return true;
 }
 
-/// The images since then are read so, and the path is bent to it.
+/// Takes over the association and poses of `reading` for the images from `since` on, and optimises the path.
 void Hypothesis::take_over(const Reading& reading, PoseId since, std::span<const LandmarkId> map) {
   const auto is_mapped = [&](LandmarkId id) { return std::find(map.begin(), map.end(), id) != map.end(); };
   BearingGraph::Values values = graph().values();
   for (PoseId image = since; image < images(); ++image)
     values.poses[as_size(image)] = reading.poses[as_size(image - since)];
-  // What is new since then goes along with the image that showed it first.
+  // Landmarks found since then move along with the image that showed them first.
   for (const LandmarkId id : landmarks_) {
     if (is_mapped(id) || graph().bearings_of(id).empty()) continue;
     PoseId first = images();

@@ -1,4 +1,4 @@
-// Hindsight: bearings of past images given to landmarks anew (SPEC VI.20).
+// Hindsight: bearings of past images are associated anew (mathematics VI.20).
 
 #include <algorithm>
 #include <cmath>
@@ -11,13 +11,13 @@ namespace {
 
 constexpr int kRounds = 2;
 constexpr std::size_t kFewestBearings = 3;
-// By which a landmark must be better than none.
+// Minimum gain of an association over none.
 constexpr double kBetterThanNothing = 0.3;
-// A pair in one of the newest images, of which there is little hindsight, costs so much more than one that stands: what
-// was not clear when the image came is hardly clearer yet.
+// Extra cost of a new pair in one of the newest images. There is little hindsight on these images yet, and a pair that
+// was unclear when the image came is hardly clearer.
 constexpr PoseId kImagesOfLittleHindsight = 3;
 constexpr double kLittleHindsight = 1.5;
-// What past landmarks add to the variance of a bearing, before the window in which it is computed.
+// Relative variance that landmarks add to a bearing before the window, where the exact variance is not computed.
 constexpr double kPastVarianceShare = 0.1;
 
 }  // namespace
@@ -32,14 +32,14 @@ void Hypothesis::reassociate(const WindowBelief& belief, PoseId from) {
   }
 }
 
-/// Cheapest first, one to one. True: something is of another landmark than before.
+/// Associates one image anew. Returns true when an association has changed.
 bool Hypothesis::reassociate_image(const WindowBelief& belief, PoseId image) {
   const SmoothedPose& pose = graph().smoothed_pose(image);
   const BearingId first = first_bearing(image), end = first_bearing(image + 1);
   if (first == end) return false;
   const double max2_m2 = settings_.scene.asked_within_m() * settings_.scene.asked_within_m();
   const double dearest = settings_.costs.unassigned - kBetterThanNothing;
-  // Where landmarks are merged, what was one of two must be given up to become the other's.
+  // Where landmarks are merged, bearings must be free to move from one landmark to the other.
   const bool stands = !settings_.tracks.used && (member_.past_stands || image >= belief.first());
   const double stands_by = stands ? member_.rival_gap : 0.0;
   const bool is_new = !settings_.tracks.used && image >= images() - kImagesOfLittleHindsight;
@@ -60,7 +60,7 @@ bool Hypothesis::reassociate_image(const WindowBelief& belief, PoseId image) {
       const double off = wrap(measured.azimuth_rad - seen.azimuth_rad);
       const double R = measured.sigma_rad * measured.sigma_rad;
       const double S = variance < 0.0 ? (1.0 + kPastVarianceShare) * R : R + variance;
-      const double by_distance = 0.5 * off * off / S;  // the rest is positive
+      const double by_distance = 0.5 * off * off / S;  // lower bound of the cost of a pair that does not stand yet
       if (by_distance >= dearest + member_.rival_gap) continue;
       const double by_standing = graph().landmark_of(bearing) == id ? -stands_by : new_costs;
       const double cost = by_distance + 0.5 * std::log(S / R) + by_standing;
@@ -80,7 +80,7 @@ bool Hypothesis::reassociate_image(const WindowBelief& belief, PoseId image) {
   return changed;
 }
 
-/// Negative: it lies before what the belief is of.
+/// Variance of a predicted azimuth; negative when it is not known.
 double Hypothesis::prediction_variance(const WindowBelief& belief, PoseId pose, LandmarkId landmark,
                                        const SeenAzimuth& seen) const {
   const double variance = belief.variance(pose, landmark);

@@ -1,5 +1,5 @@
-// Narrow views: each bearing of nothing is a landmark at once, and those that turn out to be one are merged (SPEC
-// VI.20).
+// Landmarks through a narrow view: each unassociated bearing starts a landmark at once, and duplicates are merged later
+// (mathematics VI.20).
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +10,8 @@
 namespace azimuth {
 namespace {
 
-// What merging may add to half the squares, of k degrees of freedom: 3.1 standard deviations (99.9 %) of the squares'
-// sum, and 4 for what is linear in neither.
+// Bounds on the increase of the squared residuals by merging, with k degrees of freedom: 3.1 standard deviations of
+// their sum (99.9 %), plus 4 for nonlinearity.
 constexpr double kMostSigmas = 3.1, kNotLinear = 4.0;
 
 }  // namespace
@@ -21,7 +21,7 @@ void Hypothesis::begin_tracks() {
     if (is_unassigned(id)) landmarks_.push_back(smoother_.add_landmark(id));
 }
 
-/// A landmark seen little and not any more was nothing.
+/// Removes landmarks that have few bearings and are no longer fresh.
 void Hypothesis::end_tracks() {
   bool gone = false;
   std::erase_if(landmarks_, [&](LandmarkId id) {
@@ -62,7 +62,7 @@ void Hypothesis::merge() {
     std::sort(poses.begin(), poses.end());
   }
   const auto last_of = [](const std::vector<PoseId>& poses) { return poses.empty() ? -1 : poses.back(); };
-  // Two seen in one image are two.
+  // Two landmarks seen in one image are different.
   std::vector<LandmarkPair> possible;
   for (std::size_t newer = 0; newer < known.size(); ++newer)
     for (std::size_t older = 0; older < newer; ++older) {

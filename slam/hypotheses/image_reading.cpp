@@ -7,7 +7,7 @@
 namespace azimuth {
 namespace {
 
-// A landmark is in view for certain when it is by so many standard deviations of its azimuth.
+// Number of standard deviations of the azimuth within the field of view for a landmark that is certainly in view.
 constexpr double kCertainSigmas = 2.0;
 
 }  // namespace

@@ -8,9 +8,9 @@
 
 namespace azimuth {
 
-/// What the bearings of one image are of, as far as it is decided, and what pose and landmarks are then.
+/// The partial data association of one image, and the pose and landmarks conditioned on it.
 ///
-/// What is passed by reference must outlive it and its copies. Thread contract: thread-bound.
+/// Arguments passed by reference must outlive the object and its copies. Thread contract: thread-bound.
 class ImageReading {
  public:
   static constexpr double kNever = -std::numeric_limits<double>::infinity();
@@ -21,27 +21,28 @@ class ImageReading {
   std::size_t bearings() const { return sightings_.size(); }
   std::size_t landmarks() const { return belief_.landmarks.size(); }
 
-  /// Scores what is open, by what is decided so far.
+  /// Computes the scores of all undecided pairs, given the decisions so far.
   void predict();
-  /// From the last predict(): ln of the density by angle of a bearing of this landmark; kNever for what cannot be, or
-  /// is decided.
+  /// Score as of the last predict(): ln of the density per radian of this bearing under this landmark; kNever for a
+  /// pair that is impossible or already decided.
   double score(std::size_t bearing, std::size_t landmark) const { return scores_[bearing * landmarks() + landmark]; }
-  /// From the last predict(): how many landmarks should have been seen that no bearing is of.
+  /// Number of landmarks, as of the last predict(), that should have been seen and have no bearing.
   int missed() const;
 
   bool is_open(std::size_t bearing) const { return landmark_of_[bearing] == kOpen; }
-  /// Pose and landmarks are conditioned on it. The score must be of the last predict().
+  /// Assigns the bearing to the landmark, and conditions pose and landmarks on it. The scores must be as of the last
+  /// predict().
   void take(std::size_t bearing, std::size_t landmark);
   void leave(std::size_t bearing) { landmark_of_[bearing] = kNothing; }
 
-  /// For each bearing an index of a landmark, or -1.
+  /// Returns for each bearing the index of its landmark, or -1.
   std::vector<int> landmark_of() const;
 
  private:
   static constexpr int kNothing = -1, kOpen = -2;
   struct Prediction {
     SeenAzimuth seen;
-    Eigen::VectorXd PH;  // covariance with everything
+    Eigen::VectorXd PH;  // covariance of the azimuth with pose and landmarks
     double variance = 0.0, distance_m = 0.0;
     bool possible = false;
   };

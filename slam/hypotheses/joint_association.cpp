@@ -7,9 +7,9 @@ namespace azimuth {
 namespace {
 
 constexpr std::size_t kReadingsFollowed = 6;
-// ln of the odds against the likeliest reading beyond which one is dropped, and answers are not asked.
+// Readings and answers whose ln of the odds against the most likely one is larger than this are dropped.
 constexpr double kFollowedWithin = 8.0;
-// Where no other reading is left: readings that were dropped are there all the same.
+// Lower bound of the probability of all other readings, since dropped readings have some probability.
 constexpr double kLeastDoubt = 1e-12;
 
 struct WeighedReading {
@@ -17,14 +17,14 @@ struct WeighedReading {
   double log_weight = 0.0;
 };
 
-/// One way to go on.
+/// One continuation of a reading: a bearing and its landmark, or -1.
 struct Answer {
   std::size_t reading = 0, bearing = 0;
   int landmark = -1;
-  double score = 0.0, log_at_most = 0.0;  // the second one of the reading that follows, each to its best
+  double score = 0.0, log_at_most = 0.0;  // log_at_most: bound on the resulting reading's log weight
 };
 
-/// The rounds of one image.
+/// The joint association of one image, one bearing per round.
 class JointRounds {
  public:
   JointRounds(const ImageReading& start, const ConditionedAssociationSettings& settings)
@@ -44,7 +44,7 @@ class JointRounds {
   std::size_t bearings() const { return readings_.front().reading.bearings(); }
   std::size_t landmarks() const { return readings_.front().reading.landmarks(); }
 
-  /// Whatever the bearing whose best answer is furthest ahead may be of.
+  /// Picks the open bearing whose best answer has the largest margin, and lists its possible answers.
   void ask(std::size_t r) {
     ImageReading& reading = readings_[r].reading;
     reading.predict();
@@ -72,7 +72,7 @@ class JointRounds {
   }
 
   struct Best {
-    double score, margin;  // over the bearing's other answers, and other bearings of the same landmark
+    double score, margin;  // margin over the bearing's other answers and over other bearings of the same landmark
   };
   Best best_answer(const ImageReading& reading, std::size_t bearing) const {
     double best = nothing_, second = ImageReading::kNever;
@@ -125,7 +125,7 @@ class JointRounds {
     }
   }
 
-  /// Those that are clear when all readings count by their weights.
+  /// The pairs that are clear in the weighted sum of all readings.
   std::vector<int> clear_pairs_of_all() const {
     double most = ImageReading::kNever, sum = 0.0;
     for (const WeighedReading& weighed : readings_) most = std::max(most, weighed.log_weight);

@@ -5,11 +5,11 @@
 
 namespace azimuth {
 
-/// For each bearing an index of a landmark, or -1, where single pairs are not clear: two bearings that agree with each
-/// other may outweigh one that is nearer, and a landmark that should be seen speaks for the bearing that may be of it.
-/// From `start`, with nothing decided, the likeliest readings of the image as a whole are followed, bearing by bearing;
-/// a pair is taken when its odds in all of them together are those that the settings ask for.
-/// Thread contract: reentrant.
+/// Associates all bearings of an image jointly, for images in which single pairs are not clear: two bearings that agree
+/// with each other may outweigh a nearer one, and a landmark that should be seen supports the bearing that may belong
+/// to it. Starting from the undecided `start`, the function follows the most likely readings of the image, bearing by
+/// bearing. It accepts a pair when its odds over all these readings reach the margin of the settings. Returns for each
+/// bearing the index of its landmark, or -1. Thread contract: reentrant.
 std::vector<int> associate_jointly(const ImageReading& start, const ConditionedAssociationSettings& settings);
 
 }  // namespace azimuth

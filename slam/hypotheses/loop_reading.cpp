@@ -10,13 +10,13 @@
 namespace azimuth {
 namespace {
 
-// The map is the robot's own and may be wrong here and there, nor is it known exactly how far is seen: what is not seen
-// counts for less than in a map that was saved, and only nearby.
+// Shares of the detection probability and of the range. The robot's own map may be wrong in places and the range is not
+// known exactly, so a missed detection counts for less than in a saved map, and only nearby.
 constexpr double kDetectionShare = 2.0 / 3.0, kSurelySeenShare = 0.75;
-// Of its last bearings, that a pose must explain to be looked at, and of so many images.
+// Minimum share of the last bearings, and minimum number of images, that a candidate pose must explain.
 constexpr double kFewestExplained = 0.3;
 constexpr int kFewestImages = 3;
-// Directions compared with landmarks, per image: the area is small.
+// Comparisons of directions with landmarks per image. The number is low, since the search area is small.
 constexpr int kSearchChecks = 100000;
 
 KnownLandmark known(const MappedBefore& landmark) {
@@ -29,14 +29,14 @@ KnownLandmark known(const MappedBefore& landmark) {
   return known;
 }
 
-/// (x, y, heading) in the map, and along the pose's own axes.
+/// Matrix that turns (x, y, heading) from the map's axes to the pose's own axes.
 Eigen::Matrix3d along_own_axes(double heading_rad) {
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   turn.topLeftCorner<2, 2>() = rotation(-heading_rad);
   return turn;
 }
 
-/// One image from a pose that is predicted: what its bearings are of, and the pose that follows.
+/// Associates one image from a predicted pose, and corrects the pose.
 class ImageReader {
  public:
   ImageReader(std::span<const MappedBefore> map, const Scene& scene, double min_distance_m) : map_(map) {
@@ -96,7 +96,7 @@ class ImageReader {
 }  // namespace
 
 std::vector<PoseGaussian> find_in_map(std::span<const MappedBefore> map, std::span<const ImageToRead> images,
-                                      const Scene& scene, const Whereabouts& whereabouts) {
+                                      const Scene& scene, const PositionPrior& position_prior) {
   RelocalisationSettings settings;
   settings.detection_probability = kDetectionShare * scene.detection_probability;
   settings.search_checks = kSearchChecks;
@@ -109,7 +109,7 @@ std::vector<PoseGaussian> find_in_map(std::span<const MappedBefore> map, std::sp
   std::transform(map.begin(), map.end(), std::back_inserter(landmarks), known);
 
   Relocaliser relocaliser(settings);
-  relocaliser.start(landmarks, view, whereabouts);
+  relocaliser.start(landmarks, view, position_prior);
   std::vector<SeenDirection> directions;
   for (std::size_t i = 0; i < images.size(); ++i) {
     if (i > 0) relocaliser.predict(images[i].motion);

@@ -1,6 +1,7 @@
 #pragma once
-// A robot that comes back, and knows its pose too badly to tell by one image what it sees, looks for itself in its own
-// map by several, as a lost robot does (SPEC VI.20).
+// Loop closure by several images (mathematics VI.20). A robot that returns to a known place may know its pose too badly
+// to associate the bearings of one image. It then searches its own map with several images together, as in
+// relocalisation.
 
 #include <Eigen/Core>
 #include <span>
@@ -15,31 +16,32 @@
 
 namespace azimuth {
 
-/// A landmark mapped before the images that are read anew. It must be a point.
+/// A landmark that was mapped before the images that are associated anew. It must be a point.
 struct MappedBefore {
   SmoothedLandmark where;
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< of (alpha, rho), as the landmarks lie to each other
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< of (alpha, rho), relative to the other landmarks
   Kind kind = kAnyKind;
 };
 
-/// An image to be read anew.
+/// An image whose bearings are associated anew.
 struct ImageToRead {
-  Motion motion;  ///< from the image before; of the first one nothing is asked
+  Motion motion;  ///< from the image before; unused for the first image
   std::vector<NamelessSighting> sightings;
 };
 
-/// Where the robot may have been at the last of these images, most probable first: poses that several of the images
-/// agree on. `whereabouts` are those of the first one. Thread contract: reentrant. Same calls, same bits.
+/// Candidate poses of the robot at the last of these images, most probable first. Several of the images agree on each
+/// of them. `position_prior` is the search area at the first image. Thread contract: reentrant. The same calls give the
+/// same bits.
 std::vector<PoseGaussian> find_in_map(std::span<const MappedBefore> map, std::span<const ImageToRead> images,
-                                      const Scene& scene, const Whereabouts& whereabouts);
+                                      const Scene& scene, const PositionPrior& position_prior);
 
-/// What images say when the pose of the last one is known.
+/// The association of several images, given the pose of the last one.
 struct Reading {
-  std::vector<SmoothedPose> poses;            ///< of each image
-  std::vector<std::vector<int>> landmark_of;  ///< of each bearing of each image: an index of the map, or -1
+  std::vector<SmoothedPose> poses;            ///< one per image
+  std::vector<std::vector<int>> landmark_of;  ///< per image and bearing: index in the map, or -1
 };
-/// Image after image backwards, each conditioned on those that were read before. The map stays as it is. Thread
-/// contract: reentrant.
+/// Associates the images from the last one backwards. Each image is conditioned on those already associated. The map
+/// stays unchanged. Thread contract: reentrant.
 Reading read_backwards(std::span<const MappedBefore> map, std::span<const ImageToRead> images, const Scene& scene,
                        double min_distance_m, const PoseGaussian& last);
 

@@ -6,7 +6,8 @@
 namespace azimuth {
 namespace {
 
-/// Evenly spread over [low, high), whatever the count: golden sections, each setting with a stride of its own.
+/// Spreads a setting evenly over [low, high) for any number of members. The irrational stride acts like a golden
+/// section; each setting has its own stride.
 double spread(int member, double stride, double low, double high) {
   const double turns = member * stride;
   return low + (turns - std::floor(turns)) * (high - low);

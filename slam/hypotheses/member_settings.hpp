@@ -5,23 +5,23 @@
 
 namespace azimuth {
 
-/// How one member of a beam decides. None is right everywhere, so members differ on purpose.
+/// Decision thresholds of one member of a beam. No setting is right everywhere, so members differ on purpose.
 struct MemberSettings {
-  int window = 12;             ///< images in which landmarks are looked for, and decided about anew at each image
-  int anchors = 1;             ///< newest images that a new landmark may have been seen in last
-  int min_hits = 4;            ///< bearings that make a landmark
-  double min_fall = 6.0;       ///< of the energy, by landmarks that come together
-  double step_fall = 1.0;      ///< likewise, by each of them but the first
-  double min_log_ratio = 2.0;  ///< of a landmark's bearings being of it, against being of anything
-  double rival_gap = 1.5;      ///< a bearing is of no landmark when the second best is nearer than this, in energy
-  bool past_stands = true;     ///< a pair needs no gap to stay, before the window either
-  double merge_margin = 3.0;   ///< ln of the odds that two landmarks are one, against the best rival
-  double missed_scale = 1.0;   ///< times the cost of a landmark not seen
+  int window = 12;             ///< newest images searched for landmarks and associated anew with each image
+  int anchors = 1;             ///< number of newest images that may hold a new landmark's last bearing
+  int min_hits = 4;            ///< minimum number of bearings of a new landmark
+  double min_fall = 6.0;       ///< minimum fall of the energy by a set of new landmarks
+  double step_fall = 1.0;      ///< minimum fall of the energy by each further landmark of the set
+  double min_log_ratio = 2.0;  ///< minimum ln of the odds of a new landmark against chance
+  double rival_gap = 1.5;      ///< a bearing stays unassociated if the second best choice costs less than this more
+  bool past_stands = true;     ///< whether pairs of images before the window stay although a rival is within rival_gap
+  double merge_margin = 3.0;   ///< minimum ln of the odds for merging two landmarks, against the best rival
+  double missed_scale = 1.0;   ///< factor on the cost of a missed detection
   RobustKernel kernel = RobustKernel::cauchy;
   friend bool operator==(const MemberSettings&, const MemberSettings&) = default;
 };
 
-/// Members that differ, the first being the most usual. Same count, same settings.
+/// Settings of `count` different members; the first has the defaults. The same count gives the same settings.
 std::vector<MemberSettings> differing_members(int count);
 
 }  // namespace azimuth

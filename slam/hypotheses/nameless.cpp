@@ -9,18 +9,19 @@
 namespace azimuth {
 namespace {
 
-// Of two nearer than this, in standard deviations, nobody could say later which was which. Less than one: most of what
-// a bearing is off by it shares with the others of its image, and the difference of two is better known than either.
+// Bearings nearer to each other than this, in standard deviations, cannot be told apart later. The value is below one:
+// most of a bearing's error is common to all bearings of the image, so the difference of two bearings is better known
+// than each of them.
 constexpr double kNearSigmas = 0.6;
-// Standard deviation [m, rad] of no motion at all: a pose must be tied to the one before.
+// Standard deviation [m, rad] of a motion of zero, which must still tie a pose to the one before.
 constexpr double kStandsStill = 1e-6;
-// Of a landmark, that are not forgotten: what is left has to show, too, which of them are of it.
+// Minimum number of bearings that each landmark keeps. They must also show later which bearings belong to the landmark.
 constexpr std::size_t kBearingsKept = 16;
-// Members take the pairs they made for certain: the squares of what they are off by, when right, are this much larger
-// than they say (measured on 59 simulated worlds: 2 to 3). Drawn maps are as sure (VI.31).
+// Factor on the covariance. Members treat their associations as certain, so even when the associations are right,
+// squared errors are 2 to 3 times as large as their covariances say. The same holds for drawn maps (VI.31).
 constexpr double kOverconfident = 3.0;
 
-/// Sightings side by side become one, in the middle of them.
+/// Unites bearings that are too close to tell apart into their mean.
 void unite_near(std::vector<NamelessSighting>& sightings) {
   std::stable_sort(sightings.begin(), sightings.end(),
                    [](const NamelessSighting& a, const NamelessSighting& b) { return a.azimuth_rad < b.azimuth_rad; });
@@ -58,7 +59,7 @@ void Nameless::remember(const MapSnapshot& map, const Eigen::Matrix3d& moved) {
   bearings_so_far_ = map.next_id;
   start_ = beam_.newest_pose();
   other_answers_.assign(as_size(beam_.images()), start_);
-  drawn_.reset();  // they begin from nothing
+  drawn_.reset();  // drawn maps cannot start from a saved map
   evidence_ = trust_evidence(beam_, odometry_alone());
 }
 
@@ -67,7 +68,7 @@ void Nameless::predict(const Motion& motion) {
   if (has_begun()) whole_motion_.append_motion(motion);
 }
 
-/// All members have to hear that the robot is there, each from where it has the last image.
+/// Turns the pose into a motion from the last image, which then applies to all members.
 void Nameless::place(const Beam::PoseBelief& robot) {
   const Pose2& from = beam_.best().smoother().newest_pose();
   Eigen::Matrix3d to_start = Eigen::Matrix3d::Identity();
@@ -146,14 +147,15 @@ Beam::PoseBelief Nameless::past(PoseNumber number) const {
   });
   by_beam.covariance *= kOverconfident;
   const BelievedPose& other = other_answers_[as_size(number)];
-  // Drawn maps did not know yet what the beam knows by now, but are wrong less often: nothing tells which to prefer.
+  // The beam's estimate includes later images, while drawn maps are wrong less often. Nothing tells which estimate to
+  // prefer, so each counts half.
   return is_drawn() ? one_of_two(by_beam, other, 0.5, 0.5)
                     : one_of_two(by_beam, other, probability_all_wrong(evidence_), 0.0);
 }
 
 Beam::PoseBelief Nameless::pose() const { return is_drawn() ? since_image(pose_by_drawn_maps()) : pose_by_beam(); }
 
-/// Odometry has no say: where maps are wrong, populations differ by as much.
+/// Odometry alone is not mixed in: where maps are wrong, the populations differ accordingly.
 Beam::PoseBelief Nameless::pose_by_drawn_maps() const {
   BelievedPose belief = drawn_->pose();
   belief.covariance *= kOverconfident;
@@ -163,8 +165,8 @@ Beam::PoseBelief Nameless::pose_by_drawn_maps() const {
 Beam::PoseBelief Nameless::pose_by_beam() const {
   BelievedPose by_beam = since_image(beam_.newest_pose());
   by_beam.covariance *= kOverconfident;
-  // Of two places the one between them is nearer to both. Yet odometry that a map contradicts outright may be what is
-  // wrong, and then nothing of it is wanted.
+  // A pose between two candidates is nearer to both. But odometry that the map clearly contradicts may itself be wrong,
+  // and then share_of_odometry() is small.
   return one_of_two(by_beam, odometry_alone(), probability_all_wrong(evidence_), share_of_odometry(evidence_));
 }
 

@@ -17,61 +17,67 @@ namespace azimuth {
 
 struct NamelessSettings {
   BeamSettings beam;
-  /// Through a narrow view maps that are drawn tell where the robot is; the beam goes on to tell where it was.
+  /// Settings of the drawn maps, which estimate the current pose when the field of view is narrow. The beam then still
+  /// estimates past poses.
   DrawnMapsSettings drawn;
-  /// Images nearer in time than this share most of their errors: one of them is used (SPEC part V).
+  /// Images nearer in time than this share most of their errors, so only one of them is used (mathematics part V).
   double thinning_s = 0.4;
-  /// But for those of a robot that has come this far: it sees things from elsewhere.
+  /// An image is used earlier when the robot has driven this far, since the robot then sees the landmarks from another
+  /// place.
   double far_m = 0.3;
-  /// Of more images with bearings those that are worth least should be forgotten (SPEC VI.24); 0: none.
+  /// The limit on the number of used images (keyframes). Beyond it, the least valuable images should be removed
+  /// (mathematics VI.24); 0: no limit.
   int max_keyframes = 0;
   MotionFloors floors;
-  /// Standard deviations of what is left unknown of the odometer's scales, relative.
+  /// Relative standard deviations of the remaining scale errors of odometry.
   double sigma_scale_distance = 0.01, sigma_scale_turn = 0.01;
 };
 
-/// Path and map of a robot that sees landmarks all alike: odometry and images go in, one pose for each image that is
-/// used. Names that bearings have are not looked at.
+/// Path and map of a robot whose landmarks all look alike. The inputs are odometry and images; each used image makes
+/// one pose. Identities of bearings are ignored.
 ///
-/// Thread contract: thread-bound; work is spread as `workers` do. Same calls, same bits, whatever the workers.
+/// Thread contract: thread-bound; work is distributed by `workers`. The same calls give the same bits, regardless of
+/// the workers.
 class Nameless {
  public:
   explicit Nameless(const NamelessSettings& settings);
 
-  /// Begins from a saved map, before anything else, with the robot where the map saw it last, give or take `moved`
-  /// (covariance of (x, y, heading) in the map).
+  /// Starts from a saved map, at the robot's pose in the map with the additional covariance `moved` of (x, y, heading)
+  /// in the map. This must be the first call.
   void remember(const MapSnapshot& map, const Eigen::Matrix3d& moved);
-  /// The robot moved, before the next update().
+  /// Adds a motion of the robot before the next update().
   void predict(const Motion& motion);
-  /// The robot is here, whatever odometry has said since the last image.
+  /// Sets the robot's pose from an external source and discards the odometry since the last image.
   void place(const Beam::PoseBelief& robot);
-  /// The bearings of the instant that predict() led to. True: they made a new pose.
+  /// Adds the bearings taken at the pose that predict() has led to. Returns true when the image was used and made a new
+  /// pose.
   bool update(const BearingSet& set, Workers& workers);
 
-  /// Whether there are more images than there may be: forget() is to follow.
+  /// Whether there are more images than the limit allows; the caller then calls forget().
   bool is_full() const { return limit_.is_exceeded(beam_.best().graph()); }
-  /// Those worth least to the likeliest member are forgotten by all, unless landmarks need them.
+  /// Removes from all members the images that are least valuable to the best member, unless landmarks need them.
   void forget(Workers& workers);
 
-  /// Of the last image, by all up to it. Covariance of (x, y, heading), in the map: relative to the first pose. By
-  /// drawn maps where there are any; else by the beam, all of which may be wrong: of a mixture with what odometry alone
-  /// says.
+  /// Pose at the last image, given everything up to it, and its covariance of (x, y, heading) in the map, relative to
+  /// the first pose. Drawn maps give this pose where they are used. Otherwise the pose is a mixture of the beam's pose
+  /// and of odometry alone, since all members of the beam may be wrong.
   Beam::PoseBelief pose() const;
-  /// Whether that can be relied on, and what says so.
+  /// Whether pose() can be relied on, and the reason if not.
   Trust trust() const { return azimuth::trust(evidence_, recent_doubts_); }
   const TrustEvidence& evidence() const { return evidence_; }
-  /// Where the robot is if no bearing is believed.
+  /// The pose by odometry alone, without any bearing.
   Beam::PoseBelief odometry_alone() const;
-  /// What is known by now of the pose of any image that was used: by the beam, in a mixture with what drawn maps said
-  /// at the time where there are any, else with odometry alone. Covariance as above.
+  /// Current estimate of the pose of any image that was used. It is the beam's estimate, mixed with the estimate of the
+  /// drawn maps when the pose was the newest one. Where drawn maps are not used, it is mixed with odometry alone
+  /// instead. The covariance is as in pose().
   Beam::PoseBelief past(PoseNumber number) const;
-  /// The pose that the last image's lies behind, and how; -1 before the first one.
+  /// The newest pose of the graphs, from which since_anchor() leads to the last image; -1 before the first image.
   PoseNumber anchor() const { return has_begun() ? path_.newest() : -1; }
-  /// Of the poses that the graphs have.
+  /// The number of each pose that the graphs still have.
   const std::vector<PoseNumber>& numbers() const { return path_.numbers(); }
-  /// Bearings in the order of arrival, for ever: what graphs call them changes when they forget some.
+  /// Permanent number of a bearing in the order of arrival. A BearingId changes when the graphs remove other bearings.
   std::int64_t number_of(BearingId id) const { return bearing_numbers_[static_cast<std::size_t>(id)]; }
-  /// Not forgotten.
+  /// Whether the graphs still have the bearing of this number.
   bool has(std::int64_t number) const { return std::ranges::binary_search(bearing_numbers_, number); }
   std::int64_t bearings_so_far() const { return bearings_so_far_; }
 
@@ -92,14 +98,15 @@ class Nameless {
   NamelessSettings settings_;
   Beam beam_;
   std::optional<DrawnMaps> drawn_;
-  Beam::PoseBelief start_;  // where odometry alone begins
+  Beam::PoseBelief start_;  // where odometry_alone() starts
   MotionSincePose motion_, whole_motion_;
   TrustEvidence evidence_;
   RecentDoubts recent_doubts_;
   ThinnedPath path_;
-  std::vector<BelievedPose> other_answers_;  // for each pose of the path, of when it was the newest
+  // per pose of the path: the estimate by drawn maps, or by odometry alone, when the pose was the newest one
+  std::vector<BelievedPose> other_answers_;
   KeyframeLimit limit_;
-  std::vector<std::int64_t> bearing_numbers_;  // of those in the graphs
+  std::vector<std::int64_t> bearing_numbers_;  // number of each bearing in the graphs
   std::int64_t bearings_so_far_ = 0;
   std::optional<Stamp> last_used_;
   std::vector<NamelessSighting> sightings_;

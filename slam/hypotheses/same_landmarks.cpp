@@ -16,10 +16,10 @@ constexpr double kApart = -std::numeric_limits<double>::infinity();
 
 using Matrix24d = Eigen::Matrix<double, 2, 4>;
 
-/// How far `other` lies from `vague` in the chart of `vague`, with derivatives by both.
+/// Difference of `vague` and `other` in the chart of `vague`, with derivatives by both.
 struct ChartDifference {
   Eigen::Vector2d off;
-  Matrix24d by_both;  // by vague, by other
+  Matrix24d by_both;  // by vague (2), by other (2)
 };
 
 std::optional<ChartDifference> chart_difference(const SmoothedLandmark& vague, const SmoothedLandmark& other) {
@@ -38,7 +38,7 @@ std::optional<ChartDifference> chart_difference(const SmoothedLandmark& vague, c
   return result;
 }
 
-/// The rounds of one comparison.
+/// The rounds of one call of same_landmarks().
 class Comparison {
  public:
   Comparison(LandmarkBeliefs beliefs, std::span<const LandmarkPair> possible, const SameLandmarksSettings& settings)
@@ -87,7 +87,7 @@ class Comparison {
     return result;
   }
 
-  /// kApart: they are apart.
+  /// Score of a pair; kApart: the two are separate landmarks.
   double score(const LandmarkPair& pair) const {
     const auto innovation = compare(pair);
     if (!innovation) return kApart;
@@ -114,7 +114,7 @@ class Comparison {
     return found != possible_.end() && scores_[static_cast<std::size_t>(found - possible_.begin())] != kApart;
   }
 
-  /// possible_.size(): none is clear.
+  /// Index of the pair with the largest margin; possible_.size() when no pair is clear.
   std::size_t clearest() const {
     std::size_t best = possible_.size();
     double best_margin = settings_.min_margin;

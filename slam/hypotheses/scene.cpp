@@ -8,7 +8,7 @@ namespace azimuth {
 namespace {
 
 const double kSqrtTwoPi = std::sqrt(2.0 * std::numbers::pi);
-// Odds are never so clear that a hypothesis could not be wrong about them.
+// Lower bound of a cost, since a hypothesis may be wrong even about clear odds.
 constexpr double kLeastCost = 0.1;
 
 }  // namespace
@@ -23,10 +23,10 @@ bool Scene::in_view(double azimuth_rad) const {
   return sees_all_round() || std::abs(std::remainder(azimuth_rad, 2.0 * std::numbers::pi)) <= 0.5 * field_of_view_rad;
 }
 
-/// A bearing of a landmark has the density p_D N(r; sigma^2), one of nothing lambda_c: their ratio at r = 0 is what
-/// being unassigned costs. A landmark is a density of lambda_n by direction and N(rho_0, sigma_0^2) by inverse
-/// distance; what its bearings leave of that is about sigma by direction, and by inverse distance sigma rho_0, the
-/// parallax being about a radian by then (Laplace's approximation of the evidence).
+/// A bearing of a landmark has the density p_D N(r; sigma^2), clutter has lambda_c. The cost of an unassigned bearing
+/// is ln of their ratio at r = 0. A landmark has a prior density lambda_n by direction and N(rho_0, sigma_0^2) by
+/// inverse distance. Its bearings reduce this to standard deviations of about sigma by direction and sigma rho_0 by
+/// inverse distance, for a parallax of about a radian (Laplace's approximation of the evidence).
 HypothesisCosts hypothesis_costs(const Scene& scene, const SmootherSettings& smoother) {
   const double sigma = scene.sigma_bearing_rad, rho_0 = smoother.inverse_depth_mean_per_m;
   HypothesisCosts costs;

@@ -3,39 +3,39 @@
 
 namespace azimuth {
 
-/// What a camera and a place give: how much is seen of what stands there, and how much of nothing.
+/// Detection model of a camera in its surroundings: detection probability, range and clutter.
 struct Scene {
-  double sigma_bearing_rad = 0.0262;             ///< of one azimuth, standard deviation
+  double sigma_bearing_rad = 0.0262;             ///< standard deviation of an azimuth
   double field_of_view_rad = 6.283185307179586;  ///< full angle about the heading; 2 pi: all round
-  double range_m = 6.0;                          ///< how far landmarks are seen
-  double range_doubt = 0.3;                      ///< as a share, by how much that may be more
-  double detection_probability = 0.75;           ///< that one is seen which is in view and within range
-  // Densities by angle, of the bearings of one image.
-  double clutter_per_rad = 0.2;  ///< of those that are of nothing
-  double new_per_rad = 0.4;      ///< of those that are of nothing mapped yet
+  double range_m = 6.0;                          ///< distance up to which landmarks are detected
+  double range_doubt = 0.3;                      ///< relative amount by which the true range may exceed range_m
+  double detection_probability = 0.75;           ///< of a landmark in view and within range
+  // Densities per radian of the bearings of one image.
+  double clutter_per_rad = 0.2;  ///< of clutter
+  double new_per_rad = 0.4;      ///< of landmarks that are not mapped yet
 
-  /// However well the range is known, how far away a landmark is may be uncertain, and some are seen from further off.
+  /// Lower bound of range_doubt. Distances of landmarks are uncertain, and some landmarks are seen from further away.
   static constexpr double kLeastRangeDoubt = 0.1;
-  /// Landmarks further away than this are not asked after.
+  /// Landmarks further away than this are not considered in data association.
   double asked_within_m() const { return (1.0 + range_doubt) * range_m; }
-  /// Those nearer than this should be seen: how far a camera sees is not known exactly.
+  /// Landmarks nearer than this should be detected. The value is below the range, which is not known exactly.
   double surely_seen_within_m() const { return 0.9 * range_m; }
   bool sees_all_round() const;
-  /// Through 140 degrees a landmark is in view for long enough to be found by several images, through 60 it is not.
+  /// Whether the field of view is too narrow to find a landmark from several images together. Through 140 degrees a
+  /// landmark stays in view long enough, through 60 degrees it does not.
   bool is_narrow() const { return field_of_view_rad < 1.75; }
-  /// So many images show as much as one of a camera that sees all round.
+  /// Number of images that show as much as one image of a camera that sees all round.
   double images_for_all_round() const;
-  /// A direction from the robot is in view.
+  /// Whether a direction from the robot is in view.
   bool in_view(double azimuth_rad) const;
   friend bool operator==(const Scene&, const Scene&) = default;
 };
 
-/// What a hypothesis is charged for, beside half the squares of its residuals: logarithms of odds (SPEC VI.20).
-/// Natural.
+/// Costs of a hypothesis besides half the squared residuals: natural logarithms of odds (mathematics VI.20).
 struct HypothesisCosts {
-  double unassigned = 0.0;  ///< for a bearing of nothing, against one that lies exactly where a landmark should be
-  double landmark = 0.0;    ///< for having a landmark
-  double missed = 0.0;      ///< for a landmark that is not seen where it should be
+  double unassigned = 0.0;  ///< of clutter, against a bearing exactly at a landmark's predicted azimuth
+  double landmark = 0.0;    ///< of each landmark
+  double missed = 0.0;      ///< of each missed detection
   friend bool operator==(const HypothesisCosts&, const HypothesisCosts&) = default;
 };
 HypothesisCosts hypothesis_costs(const Scene& scene, const SmootherSettings& smoother);

@@ -9,15 +9,16 @@
 namespace azimuth {
 namespace {
 
-// Of a landmark, to tell by it how far is seen.
+// Minimum number of bearings of a landmark that contributes to the range.
 constexpr std::size_t kFewestBearingsToTell = 5;
-// Before its first and after its last bearing a landmark is looked for in so many images: it comes and goes there.
-// Further off, what is not seen may as well have been mapped a second time.
+// Number of images before a landmark's first and after its last bearing that count as evidence, since the landmark
+// comes into or goes out of range in these images. In images further off, a second copy of the landmark may have been
+// mapped.
 constexpr PoseId kImagesAround = 12;
-// That something is taken for a landmark that is not seen.
+// Probability that another bearing is taken for a landmark that is not seen.
 constexpr double kFalselySeen = 0.02;
 
-/// What was seen and what was not, by the logarithm of the distance: the range is somewhere between steps.
+/// Evidence for the range from detections and missed detections, in steps of the logarithm of the distance.
 class RangeEvidence {
  public:
   RangeEvidence(double given_m, double detection_probability)
@@ -26,14 +27,15 @@ class RangeEvidence {
         missed_(std::log((1.0 - detection_probability) / (1.0 - kFalselySeen))) {}
 
   double furthest_m() const { return given_m_ * std::exp(kStep * kStepsEachWay); }
-  /// Of a landmark at this distance, nearer than the furthest: how much likelier that is within the range than beyond.
+  /// Adds a detection or a missed detection of a landmark at this distance, which must be below furthest_m().
   void add(double distance_m, bool seen) {
     const double steps = std::log(distance_m / given_m_) / kStep;
     const double at = std::clamp(std::ceil(steps) + kStepsEachWay, 0.0, kSteps - 1.0);
     log_likelihoods_[static_cast<std::size_t>(at)] += seen ? seen_ : missed_;
   }
 
-  /// By mean and deviation of the logarithm. What was doubted beforehand, beyond the least, is its deviation then.
+  /// The range from mean and standard deviation of its logarithm. The prior standard deviation is the given doubt
+  /// beyond kLeastRangeDoubt.
   RangeBelief range(double given_doubt) const {
     const double given_deviation = given_doubt - Scene::kLeastRangeDoubt;
     if (!(given_deviation > 0.0)) return {given_m_, given_doubt};
@@ -64,7 +66,7 @@ class RangeEvidence {
   static double log_ratio(std::size_t i) { return kStep * (static_cast<double>(i) - kStepsEachWay); }
 
   double given_m_, seen_, missed_;
-  std::array<double, kSteps> log_likelihoods_{};  // of a range of this step or more
+  std::array<double, kSteps> log_likelihoods_{};  // contribution to all ranges of this step or more
 };
 
 bool in_view(const Scene& scene, const SmoothedPose& pose, const Eigen::Vector2d& p_map) {
@@ -74,7 +76,7 @@ bool in_view(const Scene& scene, const SmoothedPose& pose, const Eigen::Vector2d
 
 }  // namespace
 
-/// Of n directions within +-a the widest is below a 0.05^(1/n) in 5 % of all cases.
+/// The widest of n directions within +-a is below a 0.05^(1/n) with a probability of 5 %.
 double field_of_view_by_experience(double given_rad, const BearingGraph& graph) {
   constexpr double kUnlikely = 0.05;
   constexpr int kFewestToJudgeBy = 20;

@@ -6,22 +6,25 @@
 
 namespace azimuth {
 
-/// The full angle about the heading in which bearings come: of the given one, as much as is not unlikely (5 %) never to
-/// have been used. A camera that is said to see all round may be mounted where it does not, and landmarks behind it
-/// would count as missed. Thread contract: reentrant.
+/// The field of view (full angle about the heading) learned from the azimuths of the bearings so far. It is the largest
+/// angle, up to `given_rad`, for which the absence of bearings beyond the widest one has a probability of at least 5 %.
+/// A camera that should see all round may be mounted where it does not, and landmarks behind it would count as missed.
+/// Thread contract: reentrant.
 double field_of_view_by_experience(double given_rad, const BearingGraph& graph);
 
-/// What is believed of the range.
+/// Estimate of the detection range.
 struct RangeBelief {
   double range_m = 0.0;
   double doubt = 0.0;  ///< see Scene::range_doubt
 };
-/// How far landmarks are seen, from which of `landmarks` were seen where and which were not, before and after as well
-/// (SPEC VI.20). Where nothing was seen come or go by its distance it is the given one, with the given doubt: a robot
-/// that has only been in a small room cannot know. Thread contract: reentrant.
+/// The detection range learned from the distances at which `landmarks` were seen and were missed, from shortly before
+/// their first to shortly after their last bearing (mathematics VI.20). Without landmarks that come into or go out of
+/// range, the range and its doubt stay as given: a robot in a small room cannot learn the range. Thread contract:
+/// reentrant.
 RangeBelief range_by_experience(const Scene& given, const BearingGraph& graph, std::span<const LandmarkId> landmarks);
 
-/// Both. Through a narrow view, where landmarks come and go by its edges, the range is as given.
+/// The scene with the learned field of view and range. Through a narrow view, landmarks come and go at the edges of the
+/// view, and the range stays as given.
 Scene scene_by_experience(const Scene& given, const BearingGraph& graph, std::span<const LandmarkId> landmarks);
 
 }  // namespace azimuth

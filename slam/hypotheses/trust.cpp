@@ -10,25 +10,25 @@ namespace {
 
 constexpr PoseId kRecentImages = 12;
 
-// That no member has it right is, before odometry is asked, this likely at least while the map is young; and how much
-// wider than its own doubt such a map lies about what odometry says.
+// Minimum prior probability that all members of a young map are wrong, and the factor on the covariance of odometry
+// that describes the pose of such a map.
 constexpr double kWrongAtLeast = 0.2, kWiderWhenWrong = 2.5;
-// Maps of so many images are young: odometry still has a say in where the robot is. The same number of images later it
-// has half of it.
+// A map of up to so many images is young. The weight of odometry falls inversely with the number of images beyond.
 constexpr double kYoungImages = 36.0;
-// Through a narrow view few landmarks are seen at once, and loops are closed by one or two of them: on recorded drives
-// maps are wrong somewhere more often than not, and members are wrong together.
+// Prior probability through a narrow view. Few landmarks are seen at once, and one or two of them close a loop, so most
+// maps are wrong somewhere, and members are wrong together.
 constexpr double kWrongBeforehandNarrow = 0.9;
 
-// Beyond these a pose is wrong more often than its covariance says.
+// Thresholds beyond which a pose is wrong more often than its covariance says.
 constexpr double kMostElsewhere = 0.2, kMostSpread = 3.0;
-constexpr double kMostRecentChi2 = 0.7;  // motions are fitted, too: a third of their degrees of freedom is usual
+constexpr double kMostRecentChi2 = 0.7;  // motions are fitted too, so a third is usual
 constexpr double kMostWrong = 0.5;
-// Of landmarks that should be seen a quarter is not, by detection_probability: this is twice as many.
+// Twice the share that detection_probability lets one expect.
 constexpr double kMostMissing = 0.5;
-constexpr std::size_t kEstablished = 4;  // bearings of a landmark
+constexpr std::size_t kEstablished = 4;  // minimum number of bearings of a landmark
 
-/// Of the bearings of the last images that showed something: a dark camera speaks neither for a map nor against it.
+/// Share of associated bearings in the last images that have bearings. Images without bearings (a dark camera) count
+/// neither for nor against a map.
 double share_explained(const Hypothesis& hypothesis) {
   const BearingGraph& graph = hypothesis.graph();
   double explained = 0.0, bearings = 0.0;
@@ -42,7 +42,7 @@ double share_explained(const Hypothesis& hypothesis) {
   return bearings > 0.0 ? explained / bearings : 0.0;
 }
 
-/// Of the times that established landmarks should have been seen in the last images that showed something.
+/// Share of missed detections of established landmarks, in the last images that have bearings.
 double share_missing(const Hypothesis& hypothesis) {
   const BearingGraph& graph = hypothesis.graph();
   const Scene& scene = hypothesis.scene();
@@ -70,8 +70,8 @@ double share_missing(const Hypothesis& hypothesis) {
 
 double youth(const TrustEvidence& evidence) { return std::min(1.0, kYoungImages / std::max(evidence.images, 1)); }
 
-/// Bayes: the square of what the pose is off by has the density of chi2 with three degrees of freedom when the map is
-/// right, that of one wider by a factor when it is wrong.
+/// Bayes' rule: the squared difference between pose and odometry is chi2-distributed with three degrees of freedom when
+/// the map is right, and wider by the factor kWiderWhenWrong when the map is wrong.
 double wrong_by_odometry(const TrustEvidence& evidence, double wrong_beforehand) {
   const double log_odds_right = std::log(1.0 - wrong_beforehand) - std::log(wrong_beforehand) +
                                 1.5 * std::log(kWiderWhenWrong) -
@@ -113,7 +113,7 @@ TrustEvidence trust_evidence(const Beam& beam, const Beam::PoseBelief& odometry_
 Trust trust(const TrustEvidence& evidence) {
   if (evidence.landmarks == 0) return {"no landmark found yet"};
   if (evidence.narrow_view) return {"too few landmarks at once to tell them apart"};
-  // The covariance of the first metres is all odometry's, and nothing has had time to contradict it.
+  // The covariance of the first metres comes from odometry alone, and nothing has had time to contradict it.
   if (evidence.images < kRecentImages && !evidence.from_saved_map) return {"too little seen yet to tell"};
   if (evidence.elsewhere > kMostElsewhere || evidence.spread > kMostSpread)
     return {"several maps explain what was seen"};
@@ -135,13 +135,14 @@ Trust trust(const TrustEvidence& evidence, const RecentDoubts& recent) {
 }
 
 void RecentDoubts::add(const TrustEvidence& evidence) {
-  if (evidence.images < kRecentImages && !evidence.from_saved_map) return;  // nothing could be said of it
+  if (evidence.images < kRecentImages && !evidence.from_saved_map) return;  // too few images to judge
   constexpr std::uint64_t kKept = (std::uint64_t{1} << kImages) - 1;
   doubted_ = (doubted_ << 1U | (trust(evidence).trusted() ? 0U : 1U)) & kKept;
   images_ = std::min(images_ + 1, kImages);
 }
 
-/// Beforehand y u + (1 - y) u^2, with u the share that the map leaves unexplained and y its youth (SPEC VI.20).
+/// The prior probability is y u + (1 - y) u^2, with u the share of unexplained bearings and y the map's youth
+/// (mathematics VI.20).
 double probability_all_wrong(const TrustEvidence& evidence) {
   const double young = youth(evidence), unexplained = 1.0 - evidence.explained;
   const double beforehand = std::max(kWrongAtLeast * young, unexplained * (young + (1.0 - young) * unexplained));
@@ -149,7 +150,8 @@ double probability_all_wrong(const TrustEvidence& evidence) {
 }
 
 double share_of_odometry(const TrustEvidence& evidence) {
-  // Odometry is listened to sooner than a map is called wrong: drives short of a lap are worse off without.
+  // The prior here is higher than in probability_all_wrong(): drives shorter than a lap need odometry before the map
+  // counts as wrong.
   const double wrong = wrong_by_odometry(
       evidence, evidence.narrow_view ? kWrongBeforehandNarrow : std::max(kWrongAtLeast, 1.0 - evidence.explained));
   return wrong * (1.0 - wrong) * youth(evidence);

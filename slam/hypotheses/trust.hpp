@@ -7,49 +7,49 @@
 
 namespace azimuth {
 
-/// What speaks for and against the newest pose of a beam.
+/// Evidence for and against the newest pose of a beam.
 struct TrustEvidence {
-  bool narrow_view = false;  ///< few landmarks are seen at once
-  int images = 0;            ///< so far
+  bool narrow_view = false;  ///< field of view too narrow to see many landmarks at once
+  int images = 0;            ///< number of images so far
   bool from_saved_map = false;
-  int landmarks = 0;           ///< of the best member
-  double explained = 0.0;      ///< share of the bearings seen last that are of landmarks
-  double missing = 0.0;        ///< share of the landmarks that should have been seen lately and were not
-  double elsewhere = 0.0;      ///< weight of the members that have the robot somewhere else than the best one has
-  double spread = 1.0;         ///< standard deviation of the position by all members, over that by the best one
-  double recent_chi2 = 0.0;    ///< of the last motions, against odometry, per degree of freedom
-  double odometry_chi2 = 0.0;  ///< of the pose against that of odometry alone, three degrees of freedom
+  int landmarks = 0;           ///< number of landmarks of the best member
+  double explained = 0.0;      ///< share of the recent bearings that are associated with landmarks
+  double missing = 0.0;        ///< share of missed detections among those expected recently
+  double elsewhere = 0.0;      ///< total weight of the members with the robot at a clearly different pose
+  double spread = 1.0;         ///< standard deviation of the position by all members, over that by the best member
+  double recent_chi2 = 0.0;    ///< chi-square of the recent motions against odometry, per degree of freedom
+  double odometry_chi2 = 0.0;  ///< chi-square of the pose against odometry alone, three degrees of freedom
 };
 TrustEvidence trust_evidence(const Beam& beam, const Beam::PoseBelief& odometry_alone);
 
-/// Whether a pose can be relied on as far as its covariance says.
+/// Whether a pose can be relied on within its covariance.
 struct Trust {
-  std::string_view doubt;  ///< static text, why not; empty: it can
+  std::string_view doubt;  ///< reason not to rely on the pose, a static text; empty: reliable
   bool trusted() const { return doubt.empty(); }
 };
-/// By this image alone.
+/// The trust in the pose by the evidence of the newest image alone.
 Trust trust(const TrustEvidence& evidence);
 
-/// Of the last images, in how many something spoke against relying on the pose. Thread contract: thread-bound.
+/// Counts in how many of the last images the pose was not to be trusted. Thread contract: thread-bound.
 class RecentDoubts {
  public:
-  void add(const TrustEvidence& evidence);  ///< of the next image
-  /// Whether so many were in doubt that the next one is too, whatever it says: not every image contradicts a map that
-  /// is wrong.
+  void add(const TrustEvidence& evidence);  ///< evidence of the next image
+  /// Whether so many images were in doubt that the next one is not to be trusted either. Not every image contradicts a
+  /// wrong map.
   bool prevail() const { return std::popcount(doubted_) > kMostDoubted * images_; }
 
  private:
   static constexpr int kImages = 36;
   static constexpr double kMostDoubted = 2.0 / 3.0;
 
-  std::uint64_t doubted_ = 0;  // a bit for each image, the last one first
+  std::uint64_t doubted_ = 0;  // one bit per image, lowest bit: last image
   int images_ = 0;
 };
 Trust trust(const TrustEvidence& evidence, const RecentDoubts& recent);
 
-/// The probability that all members are wrong, so that the robot is where odometry alone has it.
+/// Probability that all members are wrong, so that the robot is where odometry alone says.
 double probability_all_wrong(const TrustEvidence& evidence);
-/// How far the pose goes from the members' to odometry's.
+/// Share by which the estimated pose moves from the members' pose towards the pose by odometry.
 double share_of_odometry(const TrustEvidence& evidence);
 
 }  // namespace azimuth

@@ -35,7 +35,7 @@ WindowBelief::WindowBelief(const Smoother& smoother, PoseId first, std::span<con
   variances_.assign(poses_ * landmarks_, -1.0);
   for (std::size_t i = 0; i < poses_; ++i) {
     const SmoothedPose& pose = graph.smoothed_pose(first + static_cast<PoseId>(i));
-    // The end moved by (d, turn) moves all that is fixed to it.
+    // A is the change of this pose when the newest pose moves and everything moves with it.
     const Eigen::Vector2d from_end = pose.T_map_body.position() - end.T_map_body.position();
     const Eigen::Vector2d turned = pose.to_body({-from_end.y(), from_end.x()});
     const Eigen::Vector2d axis = pose.to_body(end.forwards);

@@ -4,7 +4,7 @@
 
 namespace azimuth {
 
-/// Who does work that may be done side by side. Threads are made elsewhere: here there are none.
+/// Interface for running tasks in parallel. Threads are created by its implementations outside this library.
 class Workers {
  public:
   virtual ~Workers() = default;
@@ -12,7 +12,7 @@ class Workers {
   virtual void for_each(std::size_t count, const std::function<void(std::size_t)>& task) = 0;
 };
 
-/// One after the other, on the thread that asks.
+/// Runs the tasks one after the other on the calling thread.
 class InTurn final : public Workers {
  public:
   void for_each(std::size_t count, const std::function<void(std::size_t)>& task) override {

@@ -23,7 +23,7 @@ std::optional<SeenRay> make_ray(const SeenDirection& seen) {
   ray.along = {cos_up * c, cos_up * s, sin_up};
   ray.across = {-s, c, 0.0};
   ray.up = {-sin_up * c, -sin_up * s, cos_up};
-  // Near the zenith an azimuth may be anything, but not the direction: it is known as well across as along.
+  // Near the zenith the azimuth is uncertain but the direction is not: across is known as well as along.
   const double across_rad = ray.spatial ? std::min(std::abs(cos_up) * seen.sigma_rad, 1.0) : seen.sigma_rad;
   const double floor_rad = ray.spatial ? 0.1 * seen.sigma_elevation_rad : 0.0;
   ray.variance_across = std::max(across_rad * across_rad, floor_rad * floor_rad);
@@ -60,7 +60,7 @@ std::optional<Appearance> appearance(const Pose2& T_map_body, const SeenRay& ray
   const Eigen::Matrix<double, 2, 3> by_q = by_v * R;
   seen.by_pose.leftCols<2>() = -by_q.leftCols<2>();
   seen.by_pose.col(2) = by_v * Eigen::Vector3d(v.y(), -v.x(), 0.0);
-  const Eigen::Index n = ray.spatial ? 3 : 2;  // entries of the place that matter
+  const Eigen::Index n = ray.spatial ? 3 : 2;  // relevant coordinates of the position
   seen.noise = by_q.leftCols(n) * landmark.covariance_m2.topLeftCorner(n, n) * by_q.leftCols(n).transpose();
   seen.noise(0, 0) += ray.variance_across;
   seen.noise(1, 1) += ray.spatial ? ray.variance_up : 1.0;

@@ -13,15 +13,15 @@ namespace {
 
 constexpr double kForbidden = -std::numeric_limits<double>::infinity();
 constexpr double kLog2Pi = 1.8378770664093453;
-constexpr double kCoarse = 0.4;       // tangent of an innovation that is not looked at
-constexpr double kTwoRowsGate = 3.0;  // what two degrees of freedom add to a gate
-constexpr int kSteps = 3;             // of least squares
-constexpr int kAssignments = 3;       // of a suggested pose, each from a better one
+constexpr double kCoarse = 0.4;       // larger tangents of an innovation are rejected without computing a covariance
+constexpr double kTwoRowsGate = 3.0;  // enlargement of the squared gate for two degrees of freedom
+constexpr int kSteps = 3;             // steps of least squares
+constexpr int kAssignments = 3;       // assignments for a suggested pose, each from the pose found by the one before
 constexpr double kRunaway_m = 5.0;
-constexpr double kVague_m = 2.0;  // standard deviation of a suggested pose that is none
-// How far a suggested pose may be off, for its first assignment.
+constexpr double kVague_m = 2.0;  // standard deviation of a suggested pose that counts as undetermined
+// Assumed error of a suggested pose in its first assignment.
 constexpr double kSuggested_m = 0.2, kSuggested_rad = 0.04;
-constexpr float kFaintest = 1e-3f;  // of being lit still
+constexpr float kFaintest = 1e-3f;  // lower limit of the probability that a landmark is still there
 
 double log_determinant(const Appearance& seen, const Eigen::Matrix2d& S) {
   return seen.rows == 1 ? std::log(S(0, 0)) : std::log(S.determinant());
@@ -41,8 +41,8 @@ Eigen::Vector3d difference(const Pose2& a, const Pose2& b) {
   return {a.x_m - b.x_m, a.y_m - b.y_m, wrap(a.heading_rad - b.heading_rad)};
 }
 
-/// Two directions without elevations leave a circle of poses, and rounding lets even that be solved: nothing is
-/// suggested by it, and its odds would be those of a pose that is known to be nowhere in particular.
+/// Whether the pose is determined. Two directions without elevations leave a circle of poses, yet rounding may let even
+/// this case be solved; such a pose must not be suggested.
 bool is_fixed(const PoseGaussian& pose) { return pose.covariance.topLeftCorner<2, 2>().trace() < kVague_m * kVague_m; }
 
 bool may_be_near(const SeenRay& ray, const Eigen::Vector3d& v) {
@@ -73,7 +73,7 @@ std::optional<Compared> ImageMatch::compare(const KnownMap& map, const RaysOfIma
     if (!solution) return std::nullopt;
   }
   Compared compared{solution->pose, odds_of_pairings(map, image, beliefs), 0.0, static_cast<int>(pairings_.size())};
-  // ln |2 pi S| of all innovations together, by the determinant lemma
+  // ln |2 pi S| of all innovations together, by the matrix determinant lemma
   compared.log_odds -= 0.5 * (solution->log_noise + log_determinant(llt) + solution->log_information + solution->chi2);
   compared.log_odds += odds_of_misses(map, beliefs.lit);
   beliefs.share.learn(pairings_.size(), image.rays.size() - pairings_.size());
@@ -103,7 +103,7 @@ std::optional<Compared> ImageMatch::compare_suggested(const KnownMap& map, const
   return compared;
 }
 
-/// Which landmarks are in view from here.
+/// Lists the landmarks in view from a pose.
 void ImageMatch::look(const KnownMap& map, const Pose2& T_map_body) {
   seen_.clear();
   const CameraPlace from(T_map_body, map.view.height_m);
@@ -115,8 +115,8 @@ void ImageMatch::look(const KnownMap& map, const Pose2& T_map_body) {
   in_view_ = std::max<double>(1.0, static_cast<double>(seen_.size()));
 }
 
-/// How much more often a landmark that is in view is seen than not; or, where that is not known, how large a share of
-/// the directions it has.
+/// Log odds that the camera detects a landmark in view (mathematics VI.8). If the detection probability is unknown: the
+/// log of the learnt share of mapped directions, divided by the number of landmarks in view.
 double ImageMatch::log_detected(const KnownMap& map, const Seen& seen, const Beliefs& beliefs) const {
   const double p = map.view.detection_probability;
   if (p <= 0.0) return std::log(beliefs.share.value() / in_view_);
@@ -196,7 +196,7 @@ std::optional<ImageMatch::Solution> ImageMatch::solve(const KnownMap& map, const
   return solution;
 }
 
-/// But for the densities, which the solution has.
+/// The log odds of the pairings without the densities, which are in Solution.
 double ImageMatch::odds_of_pairings(const KnownMap& map, const RaysOfImage& image, const Beliefs& beliefs) const {
   const auto count = static_cast<double>(image.rays.size());
   const double log_rivals = map.view.detection_probability > 0.0 ? std::log(std::max(1.0, count)) : 0.0;
@@ -215,7 +215,8 @@ double ImageMatch::odds_of_misses(const KnownMap& map, LitOdds& lit) const {
   for (const Seen& seen : seen_) {
     float& still_lit = lit[seen.landmark];
     const double missed = 1.0 - p * static_cast<double>(still_lit);
-    if (seen.in_view == InView::yes) odds += std::log(missed);  // those seen were counted against this
+    // odds_of_pairings() holds the odds of a detection relative to this probability of a miss.
+    if (seen.in_view == InView::yes) odds += std::log(missed);
     if (seen.hit)
       still_lit = 1.0f;
     else if (seen.in_view == InView::yes)

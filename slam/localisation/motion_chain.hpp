@@ -1,11 +1,11 @@
 #pragma once
-// Motions one after the other, and backwards. Reentrant.
+// Concatenation and inversion of motions. Reentrant.
 
 #include "slam/geometry/motion.hpp"
 
 namespace azimuth {
 
-/// `first`, then `second`, as one motion; the frame of the covariance is the body's at the start.
+/// `first`, then `second`, as one motion; the covariance is in the body frame at the start.
 inline Motion chained(const Motion& first, const Motion& second) {
   const MovedPose moved = apply(first.T_start_end, second);
   return {moved.T_map_body,
@@ -18,7 +18,7 @@ inline Motion chained(const Motion& first, const Motion& second) {
           second.velocity_at_end};
 }
 
-/* The way back: T_end_start = T_start_end^-1, (x', y') = -R(-heading) (x, y), heading' = -heading, so
+/* The inverse motion: T_end_start = T_start_end^-1, (x', y') = -R(-heading) (x, y), heading' = -heading, so
  *   d(T_end_start)/d(T_start_end) = [-R(-heading), (y', -x'); 0, -1] */
 inline Motion reversed(const Motion& motion) {
   Motion back = motion;

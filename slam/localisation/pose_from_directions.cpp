@@ -6,13 +6,14 @@ namespace azimuth {
 namespace {
 
 constexpr double kSamePlace_m = 1e-3;
-// The sine of the angle at which the two circles cross must be more than this.
+// Lower limit for the sine of the angle at which the two circles intersect.
 constexpr double kTouching = 0.02;
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/* Landmark a at q from landmark b, and gamma the angle from a's direction to b's. The places p (from b) that see them
- * so lie on a circle through both: Im[conj(q - p) (0 - p) e^(-i gamma)] = 0, which is
+/* Let q be landmark a relative to landmark b, and gamma the angle from a's direction to b's. The positions p (relative
+ * to b) from which the landmarks are seen like this form a circle through both: Im[conj(q - p) (0 - p) e^(-i gamma)] =
+ * 0, which is
  *   sin(gamma) |p|^2 = l . p,   l = (sin(gamma) q_x + cos(gamma) q_y, sin(gamma) q_y - cos(gamma) q_x) */
 struct Circle {
   Eigen::Vector2d l;
@@ -24,9 +25,9 @@ Circle circle(const Eigen::Vector2d& q, const Eigen::Vector2d& to_a, const Eigen
   return {{s * q.x() + c * q.y(), s * q.y() - c * q.x()}, s};
 }
 
-/// The second crossing of two circles that both pass through the origin.
+/// The second intersection of two circles that both pass through the origin.
 std::optional<Eigen::Vector2d> crossing(const Circle& a, const Circle& b) {
-  const Eigen::Vector2d normal = b.sine * a.l - a.sine * b.l;  // of the line through both crossings
+  const Eigen::Vector2d normal = b.sine * a.l - a.sine * b.l;  // normal of the line through both intersections
   if (normal.squaredNorm() <= kTouching * kTouching * std::sqrt(a.l.squaredNorm() * b.l.squaredNorm()))
     return std::nullopt;
   const Eigen::Vector2d line(-normal.y(), normal.x());
@@ -54,7 +55,7 @@ std::optional<Pose2> pose_from_directions(const std::array<Eigen::Vector2d, 3>& 
                                     circle(p_map[2] - p_map[1], to_landmark[2], to_landmark[1]));
   if (!from_middle || from_middle->squaredNorm() < kSamePlace_m * kSamePlace_m) return std::nullopt;
   const Eigen::Vector2d p = p_map[1] + *from_middle, to_middle = -*from_middle;
-  // The heading, times a length: what turns the middle direction into where the middle landmark is.
+  // Heading, times a length: the rotation of the middle direction to the middle landmark.
   const double c = to_landmark[1].dot(to_middle), s = cross(to_landmark[1], to_middle);
   for (const std::size_t i : {0u, 2u}) {
     const Eigen::Vector2d& d = to_landmark[i];

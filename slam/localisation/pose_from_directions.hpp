@@ -1,5 +1,5 @@
 #pragma once
-// The fewest directions that fix a pose, in closed form.
+// Closed-form poses from the minimum number of directions.
 
 #include <Eigen/Core>
 #include <array>
@@ -9,14 +9,14 @@
 
 namespace azimuth {
 
-/// The pose that sees two landmarks at known places in its own frame: the directions decide the heading, and the
-/// middle between the landmarks is where it should be. Nothing when either pair is one place.
+/// The pose from which two mapped landmarks are at given positions in the body frame. The vector between them
+/// determines the heading, their midpoint the position. Nothing when two positions coincide.
 std::optional<Pose2> pose_from_pair(const std::array<Eigen::Vector2d, 2>& p_map,
                                     const std::array<Eigen::Vector2d, 2>& p_body);
 
-/// The pose that sees three landmarks in three directions (unit vectors in its frame): the three-point resection of
-/// surveyors. Nothing when all four lie on one circle, or nearly so, or when a landmark would have to be seen
-/// backwards.
+/// The pose from which three landmarks are seen in three directions (unit vectors in the body frame): three-point
+/// resection as in surveying. Nothing when pose and landmarks are on one circle, or nearly so, or when a landmark would
+/// have to be behind its direction.
 std::optional<Pose2> pose_from_directions(const std::array<Eigen::Vector2d, 3>& p_map,
                                           const std::array<Eigen::Vector2d, 3>& to_landmark);
 

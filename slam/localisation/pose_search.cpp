@@ -13,22 +13,23 @@ namespace azimuth {
 namespace {
 
 constexpr double kTolerance_sigmas = 3.0;
-constexpr double kTolerance_rad = 0.02;  // on top: the pose is from two or three directions only
+constexpr double kTolerance_rad = 0.02;  // margin for the error of a pose computed from two or three directions
 constexpr double kApart_m = 0.3, kApart_rad = 0.1;
-constexpr double kMostOfAnImage = 1.5;  // right samples; what spoils one may spoil others
-constexpr int kChecksPerPose = 5;       // what making one costs
-/// To be seen from one place.
+// limit of right samples per image, since a common cause may spoil all samples of an image
+constexpr double kMostOfAnImage = 1.5;
+constexpr int kChecksPerPose = 5;  // cost of computing one pose
+/// Whether the two landmarks cannot be seen from one pose.
 bool are_too_far_apart(const KnownMap& map, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   const double most_m = 2.2 * map.view.max_distance_m;
   return map.tan_min_elevation <= 0.0 && (a - b).squaredNorm() > most_m * most_m;
 }
 
-constexpr double kLowest_rad = 0.02;  // a distance cannot be told from a lower elevation
+constexpr double kLowest_rad = 0.02;  // lower elevations do not determine a distance
 
-/// Where a landmark would be from the robot, a metre above the camera.
+/// Horizontal position, relative to the robot, of a landmark one metre above the camera.
 Eigen::Vector2d per_metre(const SeenRay& ray) { return ray.along.head<2>() / ray.along.z(); }
 
-/// Standard deviation of that place, at most.
+/// Upper bound of the standard deviation of per_metre().
 double sigma_per_metre(const SeenRay& ray) {
   const double sine = ray.along.z();
   return std::max(std::sqrt(ray.variance_across) / sine, std::sqrt(ray.variance_up) / (sine * sine));
@@ -83,7 +84,7 @@ void PoseSearch::prepare(const KnownMap& map, const RaysOfImage& image) {
     for (std::size_t l = 0; l < map.landmarks.size(); ++l)
       if (may_be(ray.seen, map.landmarks[l])) candidates_.push_back(static_cast<std::uint32_t>(l));
     first_candidate_.push_back(candidates_.size());
-    // A rare name proves more than one that half of the map has.
+    // A rare name is stronger evidence than one that half of the map has.
     const std::size_t alike = first_candidate_[r + 1] - first_candidate_[r];
     const auto all = static_cast<double>(map.landmarks.size());
     weight_.push_back(alike == 0 ? 0.0 : 1.0 + std::log(all / static_cast<double>(alike)));
@@ -106,7 +107,8 @@ void PoseSearch::search_pairs(const KnownMap& map, const RaysOfImage& image) {
   for (std::size_t i = 0; i < ray_pairs_.size() && checks_left_ > 0; ++i) try_pair(map, image, ray_pairs_[i]);
 }
 
-/// Landmarks as far from each other as the directions say: with heights between `low` and `high` above the camera.
+/// Tries the pairs of landmarks whose distance agrees with the two directions, for heights between `low` and `high`
+/// above the camera.
 void PoseSearch::try_pair(const KnownMap& map, const RaysOfImage& image, RayPair rays) {
   double low_m = std::numeric_limits<double>::infinity(), high_m = 0.0;
   for (std::size_t l = 0; l < map.landmarks.size(); ++l)
@@ -124,7 +126,7 @@ void PoseSearch::try_pair(const KnownMap& map, const RaysOfImage& image, RayPair
   const auto pairs = map.pairs.between(distance_m - margin_m, distance_m + margin_m);
   if (pairs.empty()) return;
   checks_left_ -= static_cast<std::ptrdiff_t>(map.landmarks.size());
-  // All of them where there is time, else as many from anywhere: other directions shall have their turn.
+  // Tries all pairs if there is time, else a part of them from a random start, since other directions need their turn.
   const std::ptrdiff_t stop = checks_left_ - settings_.search_checks / 4;
   const std::size_t start = bits_.index(pairs.size());
   std::size_t i = 0;
@@ -154,7 +156,7 @@ void PoseSearch::try_lamps(const KnownMap& map, const RaysOfImage& image, RayPai
 void PoseSearch::search_triples(const KnownMap& map, const RaysOfImage& image) {
   if (usable_.size() < 3 || map.landmarks.size() < 3) return;
   while (checks_left_ > 0) try_triple(map, image);
-  // The same three directions fail again for the same reason.
+  // Repeating the same three directions does not help, so their number limits the right samples.
   const auto n = static_cast<double>(usable_.size());
   right_here_ = std::min(right_here_, std::pow(mapped_share_, 3.0) * n * (n - 1.0) * (n - 2.0) / 6.0);
 }
@@ -165,7 +167,7 @@ void PoseSearch::try_triple(const KnownMap& map, const RaysOfImage& image) {
   for (std::size_t& ray : rays) ray = usable_[bits_.index(usable_.size())];
   if (rays[0] == rays[1] || rays[0] == rays[2] || rays[1] == rays[2]) return;
   std::array<Eigen::Vector2d, 3> p_map, to_landmark;
-  double right = 1.0;  // the chance that this sample is
+  double right = 1.0;  // probability that this sample is right
   for (std::size_t i = 0; i < 3; ++i) {
     const auto may_be_of = candidates(rays[i]);
     landmarks[i] = may_be_of[bits_.index(may_be_of.size())];
@@ -191,7 +193,7 @@ void PoseSearch::judge(const KnownMap& map, const RaysOfImage& image, const Pose
   if (reached > 0.0) keep({T_map_body, reached});
 }
 
-/// The weights of the directions that some landmark is in; 0 as soon as it cannot be enough.
+/// Sum of the weights of the directions that some landmark explains; 0 as soon as it cannot become large enough.
 double PoseSearch::score(const KnownMap& map, const RaysOfImage& image, const Pose2& T_map_body) {
   const bool full = kept_.size() == as_size(settings_.refined_poses);
   const double enough = full ? kept_.back().score : 0.0;
@@ -216,7 +218,7 @@ double PoseSearch::score(const KnownMap& map, const RaysOfImage& image, const Po
   return all_weights_ - missing;
 }
 
-/// Of poses that are nearly the same only the best stays.
+/// Keeps only the best of nearly equal poses.
 void PoseSearch::keep(const SuggestedPose& pose) {
   const auto same = std::ranges::find_if(kept_, [&](const SuggestedPose& other) {
     return (other.T_map_body.position() - pose.T_map_body.position()).norm() < kApart_m &&

@@ -11,41 +11,41 @@
 
 namespace azimuth {
 
-/// Where poses are looked for: those of a robot that was not far from some point a while ago.
+/// Restricts the search to poses of a robot that was near a given point some time ago.
 struct SearchArea {
   Eigen::Vector2d p_map_middle_m = Eigen::Vector2d::Zero();
   double radius_m = std::numeric_limits<double>::infinity();
-  Pose2 T_now_then;  ///< back to where the robot was then
+  Pose2 T_now_then;  ///< Pose of the robot at that time, relative to the present one
   bool contains(const Pose2& T_map_body) const {
     return !(((T_map_body * T_now_then).position() - p_map_middle_m).norm() > radius_m);
   }
 };
 
-/// A pose that an image suggests.
+/// A pose suggested by an image.
 struct SuggestedPose {
   Pose2 T_map_body;
-  double score = 0.0;  ///< how much of the image it explains, roughly
+  double score = 0.0;  ///< Approximate share of the image that the pose explains, as a sum of weights
 };
 
-/// Poses that explain an image, from samples of the fewest directions that fix one (RANSAC): two with elevations, of
-/// landmarks of known height, else three azimuths. Names and kinds decide what a direction may be of. The effort is
-/// bounded by a number of comparisons, whatever the map and the image are.
+/// Finds poses that explain an image from minimal samples of directions (RANSAC): two directions with elevations, to
+/// landmarks of known height, else three azimuths. Names and kinds limit the landmarks that a direction may belong to.
+/// The effort is bounded by a number of comparisons, whatever map and image are.
 ///
-/// Thread contract: thread-bound. Nothing allocates once map and image have had their largest sizes. Same calls, same
-/// bits.
+/// Thread contract: thread-bound. Nothing allocates once map and image have had their largest sizes. The same calls
+/// give the same results to the last bit.
 class PoseSearch {
  public:
   explicit PoseSearch(const RelocalisationSettings& settings);
 
   void restart();
 
-  /// The best poses of one image, far enough from each other, best first. Valid until the next call. `mapped_share` of
-  /// the directions should be of mapped landmarks. Poses outside the area are passed over.
+  /// The best poses for one image, sufficiently distinct, best first. Valid until the next call. `mapped_share` is the
+  /// expected share of directions that belong to mapped landmarks. Poses outside the area are skipped.
   std::span<const SuggestedPose> suggest(const KnownMap& map, const RaysOfImage& image, double mapped_share,
                                          const SearchArea& area = {});
 
-  /// How many of the samples of all images since the restart should have been right ones: one image counts for a few
-  /// at most. The chance that the robot's true pose was never thought of is about e to minus this.
+  /// Expected number of correct samples in all images since restart(); the contribution of one image is limited. The
+  /// probability that the robot's true pose was never suggested is about exp(-right_samples()).
   double right_samples() const { return right_samples_; }
 
  private:
@@ -69,12 +69,12 @@ class PoseSearch {
   SearchArea area_;
   std::ptrdiff_t checks_left_ = 0;
   double mapped_share_ = 0.5;
-  double right_samples_ = 0.0, right_here_ = 0.0;  ///< of all images, and of this one
-  std::vector<std::size_t> usable_;                ///< rays that may be of some landmark
-  std::vector<std::uint32_t> candidates_;          ///< landmarks each ray may be of, ray after ray
-  std::vector<std::size_t> first_candidate_;       ///< of each ray, and one past the last
-  std::vector<Eigen::Vector2d> flat_;              ///< directions in the plane
-  std::vector<double> weight_, tolerance_;         ///< of each ray
+  double right_samples_ = 0.0, right_here_ = 0.0;  ///< Right samples of all images, and of the present one
+  std::vector<std::size_t> usable_;                ///< Rays that may belong to some landmark
+  std::vector<std::uint32_t> candidates_;          ///< Landmarks each ray may belong to, ray after ray
+  std::vector<std::size_t> first_candidate_;       ///< Index of each ray's first candidate, and one past the last
+  std::vector<Eigen::Vector2d> flat_;              ///< Directions in the plane
+  std::vector<double> weight_, tolerance_;         ///< Weight and tolerance of each ray
   double all_weights_ = 0.0;
   std::vector<RayPair> ray_pairs_;
   std::vector<Eigen::Vector3d> from_camera_;

@@ -11,16 +11,16 @@
 namespace azimuth {
 namespace {
 
-constexpr double kSame_chi2 = 16.0;  // of three degrees of freedom: two hypotheses this near are one
-// Where the robot was said to be may be wrong: by each metre driven it is held to that less, and less and less.
+constexpr double kSame_chi2 = 16.0;  // three degrees of freedom: hypotheses with a smaller squared distance are one
+// The initial position may be wrong: the search area widens with the distance driven, at an increasing rate.
 constexpr double kWidening = 0.25, kWidening_per_m = 0.25;
 constexpr double kSame_m = 0.1, kSame_rad = 0.05;
-constexpr double kHopeless = 30.0;    // ln of odds behind the best; looked at no further
-constexpr double kForgotten = 60.0;   // likewise; dropped
-constexpr double kOldShare = 0.7;     // of what was explained before, in the mean
-constexpr double kRivalRatio = 0.01;  // a place this probable, against the best, makes it ambiguous
-// The map's own errors speak for one of two places that look alike, in every image anew: about a lamp's worth, which
-// decides nothing. What is really different is worth more.
+constexpr double kHopeless = 30.0;    // log odds behind the best: not refined any further
+constexpr double kForgotten = 60.0;   // log odds behind the best: dropped
+constexpr double kOldShare = 0.7;     // weight of the previous images in the mean
+constexpr double kRivalRatio = 0.01;  // a place this probable, relative to the best, makes the best ambiguous
+// The map's own errors favour one of two places that look alike, again in every image, by about as much as one lamp.
+// Only a larger difference per image is decisive.
 constexpr double kDecisivePerImage = 2.5;
 constexpr double kMinVariance = 1e-8;  // keeps covariances regular
 
@@ -68,7 +68,7 @@ Relocaliser::Relocaliser(const RelocalisationSettings& settings)
 }
 
 void Relocaliser::start(std::span<const KnownLandmark> landmarks, const CameraView& view,
-                        const std::optional<Whereabouts>& within) {
+                        const std::optional<PositionPrior>& within) {
   map_.assign(landmarks, view);
   search_.restart();
   hypotheses_.clear();
@@ -85,7 +85,7 @@ SearchArea Relocaliser::area() const {
   return {within_->p_map_robot_m, within_->reach_m + widened_m, inverse(T_start_now_)};
 }
 
-/// How much of the map is in the area, at most 1.
+/// The share of the map that is in the search area, at most 1.
 double Relocaliser::share_searched() const {
   const double radius_m = area().radius_m;
   return std::min(1.0, kPi * radius_m * radius_m * 2.0 * kPi * std::exp(map_.log_prior_density));
@@ -105,7 +105,7 @@ void Relocaliser::predict(const Motion& motion) {
   publish();
 }
 
-/// An image from where the last one was taken shows the same, errors included.
+/// Whether the image is used. An image from the same pose as the last used image shows the same, errors included.
 bool Relocaliser::is_key() const {
   return remembered_ == 0 || since_key_.path_m >= settings_.key_distance_m ||
          since_key_.turned_rad >= settings_.key_turn_rad;
@@ -137,9 +137,9 @@ void Relocaliser::compare_all() {
   }
 }
 
-/// A pose the present image suggests is compared with it, and with the images before as far as they are kept, back in
-/// time. What lies farther back it is granted to have explained as well as the best has: an old hypothesis must not
-/// outdo its twin only because it was thought of earlier. But it has to prove itself before it is better than that.
+/// Compares a suggested pose with the present image and, backwards in time, with the past images that are kept. For
+/// images farther back the pose is credited with the odds of the best hypothesis, so that an old hypothesis does not
+/// beat a copy of itself merely by being older. This credit does not lift the pose above the best hypothesis.
 void Relocaliser::add(const Pose2& suggested) {
   candidate_.beliefs.share = MappedShare(settings_.mapped_share);
   candidate_.beliefs.lit.assign(map_.landmarks.size(), static_cast<float>(1.0 - settings_.changed_probability));
@@ -163,7 +163,7 @@ void Relocaliser::add(const Pose2& suggested) {
   sort();
 }
 
-/// False when it explains them so much worse than the leader that it is not worth a place.
+/// Returns false if the candidate explains past images so much worse than the leader that it is not worth keeping.
 bool Relocaliser::explain_past(PoseGaussian pose, const Tracked* leader) {
   for (std::size_t ago = 0; ago < remembered_; ++ago) {
     if (leader != nullptr && candidate_.recently() < leader->recently(ago + 1) - kHopeless) return false;
@@ -187,7 +187,7 @@ void Relocaliser::sort() {
             [](const Tracked& a, const Tracked& b) { return a.hypothesis.log_odds > b.hypothesis.log_odds; });
 }
 
-/// Copies of better ones, and hopeless ones, are dropped.
+/// Drops copies of better hypotheses, and hopeless ones.
 void Relocaliser::drop_worthless() {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < count_; ++i) {
@@ -209,8 +209,9 @@ void Relocaliser::remember() {
   since_key_ = {};
 }
 
-/// That the robot is nowhere in the map has odds of one. That it is at a place not thought of yet which is as good as
-/// the best one grows less probable with the samples taken, and has the less room the more is known of where it can be.
+/// Normalises the probabilities. The hypothesis that the robot is nowhere in the map has odds of one. The probability
+/// of a place that was never suggested and is as good as the best decreases with the number of samples taken, and with
+/// the size of the search area.
 void Relocaliser::publish() {
   hypotheses_.clear();
   if (count_ == 0) return;

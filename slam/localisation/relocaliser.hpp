@@ -13,42 +13,44 @@
 
 namespace azimuth {
 
-/// A pose the robot may have, in the map frame.
+/// A possible pose of the robot, in the map frame.
 struct PoseHypothesis {
   Pose2 T_map_body;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< (x [m], y [m], heading [rad])
-  double log_odds = 0.0;                                 ///< of the images, against seeing nothing that is mapped
-  double probability = 0.0;                              ///< against the others
-  double explained = 0.0;  ///< share of the directions in the last images that are of mapped landmarks
-  int images = 0;          ///< it was compared with
-  double driven_m = 0.0;   ///< since the first of them
+  double log_odds = 0.0;                                 ///< Log odds of the images, against clutter only
+  double probability = 0.0;                              ///< Probability against the other hypotheses
+  double explained = 0.0;  ///< Share of the directions in the last images that belong to mapped landmarks
+  int images = 0;          ///< Number of images with which the pose was compared
+  double driven_m = 0.0;   ///< Distance driven since the first of these images
 };
 
-/// Where a robot is known to be, roughly.
-struct Whereabouts {
+/// An approximately known position of the robot.
+struct PositionPrior {
   Eigen::Vector2d p_map_robot_m = Eigen::Vector2d::Zero();
-  double reach_m = 0.0;  ///< no farther away from there than this; the search widens as the robot drives on
+  double reach_m = 0.0;  ///< Greatest distance from p_map_robot_m; the search area widens as the robot drives on
 };
 
-/// Finds a robot in a known map that may be anywhere: kidnapped, slipped, or switched on somewhere.
+/// Relocalisation: finds a robot that may be anywhere in a known map (kidnapped, slipped, or switched on at an unknown
+/// place).
 ///
-/// Each image suggests poses: two directions with elevations to landmarks of known height, or three without, fix one.
-/// What is suggested is compared with the whole image and with those before, and the good ones are kept as Gaussians
-/// that move with odometry and are corrected by each image. Their odds tell them apart: what is seen where it should
-/// be, what should be seen and is not, and what is seen and not mapped. While several places look alike there are
-/// several hypotheses, and motion decides; in a map that is exactly symmetric nothing does.
+/// Each image suggests poses, computed from two directions with elevations to landmarks of known height, or from three
+/// directions without elevations. A suggested pose is compared with the whole image and with previous images. Good
+/// poses are kept as Gaussian hypotheses that move with odometry and are corrected by each image. The hypotheses differ
+/// in their odds, which result from landmarks seen where they should be, landmarks missed, and directions without a
+/// mapped landmark. While several places look alike there are several hypotheses, and motion decides between them; in
+/// an exactly symmetric map it cannot.
 ///
-/// Knows nothing of filters, and leaves the map as it is.
+/// Independent of any filter; never changes the map.
 ///
 /// Thread contract: thread-bound. Nothing allocates once the hypotheses and the images have had their largest sizes.
-/// Same calls, same bits.
+/// The same calls give the same results to the last bit.
 class Relocaliser {
  public:
   explicit Relocaliser(const RelocalisationSettings& settings);
 
-  /// Begins anew in this map, with the robot anywhere in it or near it, or only `within`.
+  /// Starts a search in this map, with the robot anywhere in or near the map, or only `within`.
   void start(std::span<const KnownLandmark> landmarks, const CameraView& view,
-             const std::optional<Whereabouts>& within = {});
+             const std::optional<PositionPrior>& within = {});
 
   /// The robot moved.
   void predict(const Motion& motion);
@@ -56,25 +58,25 @@ class Relocaliser {
   /// Compares an image with the map. Directions that are not finite or have no positive sigma are left out.
   void update(std::span<const SeenDirection> directions);
 
-  /// Those still thought possible, the most probable first.
+  /// The remaining hypotheses, most probable first.
   std::span<const PoseHypothesis> hypotheses() const { return hypotheses_; }
 
-  /// Whether more than one place explains what was seen well.
+  /// Whether more than one place explains the images well.
   bool is_ambiguous() const;
 
-  /// The robot's pose, when there is hardly a doubt left; its covariance takes the landmarks' errors as independent.
+  /// The robot's pose, once hardly any doubt is left. Its covariance treats the landmarks' errors as independent.
   std::optional<PoseHypothesis> found() const;
 
  private:
-  /// A hypothesis with what it thinks of each landmark.
+  /// A hypothesis with its belief about each landmark.
   struct Tracked {
     PoseHypothesis hypothesis;
     Beliefs beliefs;
-    double log_prior = 0.0;      ///< part of the odds: how few poses there are like this
-    std::vector<double> recent;  ///< odds of the last images, newest first
+    double log_prior = 0.0;      ///< Part of the odds: the share of all poses that are like this one
+    std::vector<double> recent;  ///< Log odds of the last images, newest first
     double recently(std::size_t images = std::numeric_limits<std::size_t>::max()) const;
   };
-  /// An image, and the motion from there to the next one kept.
+  /// A past image, and the motion from it to the next one kept.
   struct Past {
     RaysOfImage image;
     Motion to_next;
@@ -97,17 +99,17 @@ class Relocaliser {
   KnownMap map_;
   ImageMatch match_;
   PoseSearch search_;
-  std::vector<Tracked> tracked_;  ///< the first `count_` are in use, the best first
+  std::vector<Tracked> tracked_;  ///< The first `count_` are in use, best first
   Tracked candidate_;
   std::size_t count_ = 0;
   std::vector<PoseHypothesis> hypotheses_;
-  std::vector<Past> past_;  ///< ring
+  std::vector<Past> past_;  ///< Ring
   std::size_t newest_ = 0, remembered_ = 0;
   RaysOfImage image_;
   Motion since_key_;
-  double driven_m_ = 0.0;  ///< since the start
+  double driven_m_ = 0.0;  ///< Distance driven since the start
   Pose2 T_start_now_;
-  std::optional<Whereabouts> within_;
+  std::optional<PositionPrior> within_;
 };
 
 }  // namespace azimuth

@@ -6,17 +6,18 @@
 namespace azimuth {
 namespace {
 
-constexpr double kAroundMap_m = 5.0;  // a robot is no farther outside
-constexpr double kSlack = 1.1;        // the limits of the view are not known better
+constexpr double kAroundMap_m = 5.0;  // a robot is at most this far outside of the map
+constexpr double kSlack = 1.1;        // tolerance for the limits of the view
 constexpr double kLongestPair_m = 100.0;
 
-/// Share of the map's landmarks that look like this direction: as often clutter looks like it too.
+/// Share of the map's landmarks that the direction may belong to. The same share of clutter is assumed to have the kind
+/// and identity of the direction.
 double share_of_looks(const SeenDirection& seen, std::span<const KnownLandmark> landmarks) {
   const auto alike = std::ranges::count_if(landmarks, [&](const KnownLandmark& l) { return may_be(seen, l); });
   return std::max(1.0, static_cast<double>(alike)) / static_cast<double>(std::max<std::size_t>(1, landmarks.size()));
 }
 
-/// The part of the sphere, or of the circle, that directions may have.
+/// Size of the part of the sphere, or circle, that directions may cover.
 double room(const SeenRay& ray, const CameraView& view) {
   return ray.spatial ? view.field_of_view_rad * (1.0 - std::sin(view.min_elevation_rad)) : view.field_of_view_rad;
 }

@@ -6,11 +6,11 @@
 namespace azimuth {
 namespace {
 
-constexpr double kMostOfAnImage = 4.0;  // what spoils one bearing may spoil them all
+constexpr double kMostOfAnImage = 4.0;  // limit per image, since a common cause may spoil all its bearings
 constexpr double kLeastShare = 0.3, kMostShare = 0.8;
 constexpr double kLeastChance = 0.05, kMostChance = 0.6;
 constexpr double kLearning = 0.05;
-constexpr double kFading = 0.9;  // of a doubt about which an image says nothing
+constexpr double kFading = 0.9;  // decay of the log odds when an image carries no evidence
 
 }  // namespace
 
@@ -20,14 +20,14 @@ void AgreementWatch::add(const ImageAgreement& image) {
     log_odds_ = std::max(0.0, log_odds_ + *image.log_odds);
     return;
   }
-  // As many as could have been found again: a camera half covered sees fewer.
+  // Number of landmarks that could have been found again: a half-covered camera sees fewer.
   const int trials = std::min(image.expected, image.bearings);
   if (trials == 0 || image.chance > kMostChance) {
     log_odds_ *= kFading;
     return;
   }
   const double hits = std::min(trials, image.explained), misses = trials - hits;
-  if (hits == 0.0 && misses == 1.0) {  // anything may stand before one landmark, and go on to
+  if (hits == 0.0 && misses == 1.0) {  // a single landmark may be occluded, for any length of time
     log_odds_ *= kFading;
     return;
   }

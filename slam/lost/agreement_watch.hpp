@@ -5,23 +5,23 @@
 
 namespace azimuth {
 
-/// Driven: what was seen then should be seen still.
+/// Distance driven within which landmarks seen before should still be seen.
 inline constexpr double kMoment_m = 1.5;
 
-/// How far an image shows what it should.
+/// The landmarks that an image should show, and how many of them it does show.
 struct ImageAgreement {
-  int expected = 0;     ///< landmarks in view that were seen a moment ago
-  int bearings = 0;     ///< in the image
-  int explained = 0;    ///< of them, those of some landmark where it should be
-  double chance = 0.0;  ///< that a bearing of anything is explained by accident
-  /// Instead of the numbers, where more is known of what an image should show: ln of how much likelier it is of
-  /// elsewhere. Of the numbers `expected` alone counts then.
+  int expected = 0;     ///< Landmarks in view that were seen a moment ago
+  int bearings = 0;     ///< Bearings in the image
+  int explained = 0;    ///< Bearings that agree with some predicted landmark
+  double chance = 0.0;  ///< Probability that a bearing agrees by accident
+  /// Set where a better model of the image exists: ln P(image | robot elsewhere) / P(image | robot here). Of the
+  /// numbers above only `expected` is used then.
   std::optional<double> log_odds = {};
 };
 
-/// Notices when a robot is not where it is thought to be (carried away, wheels spinning on the spot): the images go on
-/// to show things, but not those which were there a moment ago. It is a sequential test: the log odds of being lost
-/// grow with each landmark that is not found again, shrink with each one that is, and are never less than none.
+/// Detects that a robot is not where the filter believes (carried away, or wheels spinning on the spot): images still
+/// show landmarks, but not those that were there a moment ago. A sequential test: the log odds of being lost grow with
+/// each landmark that is missed, shrink with each one that is found, and never fall below 0.
 ///
 /// Thread contract: thread-bound.
 class AgreementWatch {
@@ -29,16 +29,16 @@ class AgreementWatch {
   explicit AgreementWatch(const RelocalisationSettings& settings) : settings_(settings) {}
 
   void add(const ImageAgreement& image);
-  /// Enough to leave the map as it is until this is settled.
+  /// The evidence suffices to stop changing the map until the doubt is resolved.
   bool doubts() const { return settings_.lost_log_odds > 0.0 && log_odds_ > settings_.doubt_log_odds; }
   bool is_lost() const { return settings_.lost_log_odds > 0.0 && log_odds_ > settings_.lost_log_odds; }
-  /// Nothing speaks for being lost.
+  /// There is no evidence for being lost.
   bool is_certain() const { return log_odds_ <= 0.0; }
   void settle() { log_odds_ = 0.0; }
 
  private:
   RelocalisationSettings settings_;
-  double usual_share_ = 0.7;  ///< of what is looked for, found again
+  double usual_share_ = 0.7;  ///< Usual share of the expected landmarks that are found
   double log_odds_ = 0.0;
 };
 

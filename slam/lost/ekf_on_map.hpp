@@ -7,37 +7,36 @@
 
 #include "slam/ekf/rig_told.hpp"
 #include "slam/ekf/saved_state.hpp"
-#include "slam/estimator/begins_twice.hpp"
 #include "slam/estimator/health_settings.hpp"
-#include "slam/estimator/hearing.hpp"
 #include "slam/estimator/judgement.hpp"
-#include "slam/estimator/map_beginning.hpp"
 #include "slam/estimator/map_fitness.hpp"
+#include "slam/estimator/map_start_decision.hpp"
 #include "slam/estimator/odometry_floors.hpp"
 #include "slam/estimator/pose_belief.hpp"
+#include "slam/estimator/recognition_history.hpp"
+#include "slam/estimator/restartable_estimator.hpp"
 #include "slam/estimator/rig.hpp"
 #include "slam/geometry/index.hpp"
 #include "slam/lost/lost_robot.hpp"
 
 namespace azimuth {
 
-/// An estimator around one joint filter and the book of its landmarks, whatever those are: how the robot begins on a
-/// saved map, moves and is lost, what is said of its pose and its health, and how the map is saved. What an image means
-/// for pose and map the class made from this one says.
+/// Base of an estimator with one joint filter and a list of landmarks: start on a saved map, motion, search for a lost
+/// robot, output of pose and health, and saving of the map. The derived class uses the images.
 ///
 /// Thread contract: thread-bound.
 template <class Filter, class Map>
-class EkfOnMap : public BeginsTwice {
+class EkfOnMap : public RestartableEstimator {
  public:
   bool odometry_begins(bool goes_on) final {
-    return beginning_.odometry_begins(goes_on, [this](const StartPose& pose) { begin_at(pose); });
+    return start_decision_.odometry_begins(goes_on, [this](const StartPose& pose) { begin_at(pose); });
   }
   void predict(const Motion& motion) final {
     const Motion noisy = with_floors(motion, rig_.odometry);
     hear_of_rig();
     ekf_.predict(noisy);
     lost_.predict(noisy);
-    hearing_.path_m += motion.path_m;
+    recognition_.path_m += motion.path_m;
     velocity_ = motion.velocity_at_end;
   }
   RigFinding rig_finding() const final {
@@ -58,11 +57,11 @@ class EkfOnMap : public BeginsTwice {
     return by_keys(rig_, errors, told_.mean(considered::scale_turn));
   }
   void look_ahead(const Motion& motion, Estimate& out) const final {
-    write(moved(belief(), motion), hearing_.path_m + motion.path_m, out);
+    write(moved(belief(), motion), recognition_.path_m + motion.path_m, out);
   }
   bool save_map(MapSnapshot& out) const override {
     out.clear();
-    if (judged(ekf_.state().pose_covariance(), hearing_.path_m).health == Health::lost) return false;
+    if (judged(ekf_.state().pose_covariance(), recognition_.path_m).health == Health::lost) return false;
     saver_.clear();
     list_saved(saver_);
     if (saver_.empty()) return false;
@@ -96,17 +95,17 @@ class EkfOnMap : public BeginsTwice {
     sightings_.reserve(kTypicalLandmarks);
   }
 
-  /// Takes the map over that is there to start from.
+  /// Takes over the saved map.
   void begin_on(const MapStart& start) {
     map_.restore(*start.map, ekf_.restore(*start.map));
     if (start.mode == MapMode::localise) ekf_.hold_map();
-    beginning_.begin(start, [this](const StartPose& pose) { begin_at(pose); });
+    start_decision_.begin(start, [this](const StartPose& pose) { begin_at(pose); });
   }
 
   PoseBelief belief() const { return belief_of(ekf_.state(), told_, velocity_); }
-  /// All of an estimate but the landmarks.
+  /// Writes everything into an estimate except the landmarks.
   void write_robot(Estimate& out) const {
-    write(belief(), hearing_.path_m, out);
+    write(belief(), recognition_.path_m, out);
     out.accepted.assign(sightings_.begin(), sightings_.end());
   }
 
@@ -115,14 +114,14 @@ class EkfOnMap : public BeginsTwice {
   Filter ekf_;
   Map map_;
   LostRobot lost_;
-  MapBeginning beginning_;
-  Hearing hearing_;
-  AssociationCounts counts_;                 ///< but for landmarks created and deleted
-  std::vector<AcceptedSighting> sightings_;  ///< those that corrected the state
+  MapStartDecision start_decision_;
+  RecognitionHistory recognition_;
+  AssociationCounts counts_;                 ///< Without created and deleted landmarks
+  std::vector<AcceptedSighting> sightings_;  ///< Bearings that corrected the state
 
  private:
-  /// What all images so far have told of it. On a map that is held nothing but the pose could be put
-  /// right.
+  /// Updates the findings about the rig from all innovations so far, and corrects the filter for them. On a held map
+  /// the filter is not corrected, since that would move only the pose.
   void hear_of_rig() {
     const Considered& pull = ekf_.state().told_of_considered().pull;
     if (pull == heard_pull_) return;
@@ -133,11 +132,12 @@ class EkfOnMap : public BeginsTwice {
     const Considered change = told_.believable() - ekf_.state().believed();
     if ((change.array().abs() > kWorthBelieving_sigmas * told_.sigma.array()).any()) ekf_.believe(told_.believable());
   }
-  /// The odometry does not go on: what is known of the pose on the map.
+  /// Sets the start pose on the map, when odometry does not continue from the saved pose.
   virtual void begin_at(const StartPose& pose) = 0;
-  /// By what was heard, and by what the map is like.
+  /// Judges the evidence from bearings together with the state of the map.
   virtual Judgement judged_with_map(Evidence heard) const = 0;
-  /// Only points that are no longer on probation: the rest has been seen from too few places to be worth it.
+  /// Lists the landmarks to be saved: only points that have passed probation, since the others were seen from too few
+  /// places.
   virtual void list_saved(StateSaver& saver) const = 0;
 
   void write(const PoseBelief& belief, double path_m, Estimate& out) const {
@@ -145,7 +145,7 @@ class EkfOnMap : public BeginsTwice {
   }
   Judgement judged(const Eigen::Matrix3d& covariance, double path_m) const {
     if (const auto judgement = lost_.judgement()) return *judgement;
-    Evidence heard = hearing_.evidence(covariance, path_m);
+    Evidence heard = recognition_.evidence(covariance, path_m);
     heard.camera = ekf_.camera_errors();
     heard.rig_contradicted = told_.doubts_any();
     heard.lag = lag_;
@@ -154,10 +154,10 @@ class EkfOnMap : public BeginsTwice {
 
   static constexpr double kWorthBelieving_sigmas = 0.2;
   RigTold told_;
-  Considered heard_pull_ = Considered::Zero();  ///< that it is of
+  Considered heard_pull_ = Considered::Zero();  ///< The value of `pull` from which told_ was computed
   std::optional<LagFound> lag_;
-  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< of the body, (m/s, m/s, rad/s)
-  mutable StateSaver saver_;                            ///< of a running save_map()
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< Velocity of the body, (m/s, m/s, rad/s)
+  mutable StateSaver saver_;                            ///< Workspace of save_map()
 };
 
 }  // namespace azimuth

@@ -18,7 +18,7 @@ Eigen::Matrix3d independent(double sigma_m, double sigma_rad) {
 Eigen::Matrix3d LostRobot::anywhere() { return independent(kAnywhere_m, kPi); }
 
 void LostRobot::begin_search(std::span<const KnownLandmark> map, const CameraView& view,
-                             const std::optional<Whereabouts>& within) {
+                             const std::optional<PositionPrior>& within) {
   if (!relocaliser_) relocaliser_.emplace(settings_);
   relocaliser_->start(map, view, within);
   watch_.settle();

@@ -10,60 +10,60 @@
 
 namespace azimuth {
 
-/// A smaller map says little about being lost.
+/// Smallest number of established landmarks for which being lost can be detected.
 inline constexpr std::size_t kFewestEstablished = 6;
-/// How far from the pose found one image may put it: little enough to be linear in.
+/// Greatest distance of a pose computed from one image from the pose found: small enough for linearisation.
 inline constexpr double kNear_m = 0.5, kNear_rad = 0.2;
-/// Of a covariance that takes the landmarks' errors as independent.
+/// Inflation of a covariance that treats the landmarks' errors as independent.
 inline constexpr double kDoubtfulFactor = 4.0;
 
-/// Independent along each axis and in heading.
+/// A pose covariance that is independent along each axis and in heading.
 Eigen::Matrix3d independent(double sigma_m, double sigma_rad);
 
-/// Being lost and found again, for any filter with a map: notices that the robot is not where it should be, searches
-/// for it while the filter leaves the map as it is, and says so of its health. What an image shows of what it should,
-/// what is known and in which directions things are seen, the filter says.
+/// Detection that the robot is lost, and relocalisation, for any filter with a map. While the search runs the filter
+/// does not change the map, and health is `lost`. The filter provides how well images agree with its map, the known
+/// landmarks, and the measured directions.
 ///
 /// Thread contract: thread-bound.
 class LostRobot {
  public:
   explicit LostRobot(const RelocalisationSettings& settings) : settings_(settings), watch_(settings) {}
 
-  /// An image. True: the robot is lost, and a search is to begin.
+  /// Adds an image. Returns true if the robot is lost and a search must start.
   bool notices(const ImageAgreement& image) {
     watch_.add(image);
     return watch_.is_lost();
   }
-  /// Enough to leave the map as it is until this is settled.
+  /// The evidence suffices to stop changing the map until the doubt is resolved.
   bool is_in_doubt() const { return watch_.doubts(); }
-  /// Nothing speaks against the pose.
+  /// Nothing contradicts the pose.
   bool is_certain() const { return watch_.is_certain() && !searching_; }
   bool is_searched_for() const { return searching_; }
 
-  /// The robot can be anywhere in the map, facing anywhere, or only `within`.
+  /// Starts a search with the robot anywhere in the map, with any heading, or only `within`.
   void begin_search(std::span<const KnownLandmark> map, const CameraView& view,
-                    const std::optional<Whereabouts>& within);
-  /// The covariance of a pose of which nothing is known.
+                    const std::optional<PositionPrior>& within);
+  /// The covariance of an unknown pose.
   static Eigen::Matrix3d anywhere();
 
-  /// The robot moved; nothing happens unless it is searched for.
+  /// The robot moved; has no effect unless a search runs.
   void predict(const Motion& motion);
-  /// While it is searched for: an image's directions. The pose once there is hardly a doubt left.
+  /// During a search: adds an image's directions. Returns the pose once hardly any doubt is left.
   std::optional<PoseHypothesis> look(std::span<const SeenDirection> directions);
-  /// Several places on the map look alike, and this one near where odometry puts the robot, which was tracked until it
-  /// was lost: wheels slip more often than robots are carried to a place that looks the same.
+  /// A tracked place near the odometry pose `T_map_body`, for the case that several places on the map look alike.
+  /// Wheels slip more often than robots are carried to a place that looks the same.
   std::optional<PoseHypothesis> nearby(const Pose2& T_map_body) const;
 
-  /// The search is over, or not needed.
+  /// Ends the search, or resolves the doubt.
   void was_found();
 
-  /// What being lost, or in doubt, makes of the health; nothing: neither.
+  /// The health that follows from being lost or in doubt. Nothing if the robot is neither.
   std::optional<Judgement> judgement() const;
 
  private:
   RelocalisationSettings settings_;
   AgreementWatch watch_;
-  std::optional<Relocaliser> relocaliser_;  ///< once it was needed
+  std::optional<Relocaliser> relocaliser_;  ///< Created when first needed
   bool searching_ = false;
 };
 

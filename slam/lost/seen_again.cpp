@@ -12,17 +12,18 @@
 namespace azimuth {
 namespace {
 
-constexpr double kNearest_m = 0.125;  // driven; each bin reaches twice as far as the one before
-constexpr unsigned kOften = 8;        // seen so often: well known; missed so often: not seen for long
-constexpr double kInSight = 0.9;      // of what can be seen at all, a usual image shows so much
-constexpr double kFirstCounts = 2.0;  // what is thought before anything is seen counts as so many landmarks
-constexpr double kFirstImages = 4.0;  // or images
-constexpr double kOfAnImage = 0.05;   // counts in averages over images
+constexpr double kNearest_m = 0.125;  // distance driven; each bin reaches twice as far as the bin before
+constexpr unsigned kOften = 8;        // seen this often: well known; missed this often: out of sight
+constexpr double kInSight = 0.9;      // share of the visible landmarks that a usual image shows
+constexpr double kFirstCounts = 2.0;  // weight of the initial probabilities, in landmarks
+constexpr double kFirstImages = 4.0;  // weight of the initial levels, in images
+constexpr double kOfAnImage = 0.05;   // weight of one image in running averages
 constexpr double kMostLikely = 0.98, kMostByAccident = 0.5;
-/// Of the share of what should be seen, that an image shows: 1 is usual.
+/// Possible levels: the share of the expected landmarks that an image shows; 1 is usual.
 constexpr std::array<double, 8> kLevels_{0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 1.0, 1.15};
 
-/// Images back from which on an image is looked at as if there had been none between; some metres of driving.
+/// Numbers of recent images that are ignored when an image is evaluated; the last one reaches back some metres of
+/// driving.
 constexpr std::array<std::size_t, 10> kReferences{0, 1, 2, 3, 4, 6, 8, 12, 16, 24};
 
 double sum(const auto& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
@@ -69,9 +70,9 @@ void SeenAgain::prepare(std::span<const Look> looks, double path_m, int bearings
   bearings_ = bearings;
   expected_ = 0.0;
   due_.clear();
-  // What makes an image show less of everything makes it show less of what is known.
+  // An image that shows less of everything also shows fewer known landmarks.
   fullness_ = usual_bearings_ > 0.0 ? std::min(1.0, bearings / usual_bearings_) : 1.0;
-  // Elsewhere on the map as many of its landmarks would be seen, whichever, and in whatever direction.
+  // At another place of the map as many of its landmarks would be seen, but arbitrary ones in arbitrary directions.
   const double any = std::min(1.0, (usual_seen_ + 1.0) / static_cast<double>(std::max<std::size_t>(looks.size(), 1)));
   for (const Look& look : looks) {
     const History history = history_of(look.landmark_id);
@@ -88,8 +89,8 @@ SeenAgain::History SeenAgain::history_of(std::int64_t landmark_id) const {
   return at != seen_lately_.end() && at->landmark_id == landmark_id ? at->history : 0;
 }
 
-/// As if there had been no image after the `newest`, counted back. What was not in sight then comes into sight the
-/// sooner, the farther the robot drives.
+/// The bin of a landmark as if the images after number `newest` (counted back) did not exist. A landmark that was out
+/// of sight is more likely to come into sight the farther the robot drives.
 std::size_t SeenAgain::bin(std::uint64_t sightings, History history, std::size_t newest, double path_m) const {
   double missed = 0.0;
   for (std::size_t back = newest; history >> newest != 0 && back < kept_; ++back) {
@@ -99,7 +100,7 @@ std::size_t SeenAgain::bin(std::uint64_t sightings, History history, std::size_t
   return bin(sightings, kOften, newest < kept_ ? path_m - image(newest).path_m : 0.0);
 }
 
-/// Seen once, two or three times, four to seven times, more often; missed likewise, or never.
+/// Bins of the numbers of observations and of misses: 1, 2 to 3, 4 to 7, 8 or more; misses also have a bin for none.
 std::size_t SeenAgain::bin(std::uint64_t sightings, double missed, double driven_m) {
   const int seen_bin = std::bit_width(static_cast<unsigned>(std::clamp<std::uint64_t>(sightings, 1, kOften))) - 1;
   const int miss_bin = std::bit_width(static_cast<unsigned>(std::lround(std::min(missed, 1.0 * kOften))));
@@ -119,7 +120,7 @@ double SeenAgain::ln_elsewhere() const {
   return ln;
 }
 
-/// What shows one by accident elsewhere does so here, too.
+/// ln P(image) for each level. A landmark can be shown by accident even if the robot is where the filter believes.
 SeenAgain::Levels SeenAgain::ln_here() const {
   Levels ln{};
   for (const Due& due : due_)
@@ -131,7 +132,7 @@ SeenAgain::Levels SeenAgain::ln_here() const {
   return ln;
 }
 
-/// A step of the hidden level: it stays, or is any other as often as those occur. Returns ln P(image).
+/// One step of the hidden level: it stays, or changes to any level with that level's frequency. Returns ln P(image).
 double SeenAgain::follow(const Levels& ln_likelihood) {
   const double most = *std::ranges::max_element(ln_likelihood);
   const double stays = experience_.stayed / experience_.followed, images = sum(experience_.occurred);
@@ -169,14 +170,15 @@ void SeenAgain::pass_over() {
   keep_image();
 }
 
-/// As the next image after each of the last, as if there had been none between: images are lost, or show nothing.
+/// Counts, for each of the last images, the present image as if it were the next one after it: images get lost, or show
+/// nothing.
 void SeenAgain::count_looks() {
   for (const std::size_t newest : kReferences) {
     if (newest >= kept_) return;
     const History since = (History{1} << newest) - 1U;
     for (const Due& due : due_) {
       if (due.landmark_id >= image(newest).known_below) continue;
-      // It may have been shown where it should be and yet not be taken for it.
+      // The landmark may have been shown at its place without being associated.
       const auto sightings =
           due.sightings - std::min<std::uint64_t>(due.sightings, as_size(std::popcount(due.history & since)));
       Count& count = undecided_.counts[bin(sightings, due.history, newest, path_m_)];
@@ -186,7 +188,8 @@ void SeenAgain::count_looks() {
   }
 }
 
-/// By Bayes' rule a miss makes what is in sight less probable by as much as the image would have shown of it.
+/// By Bayes' rule, a miss makes it less probable that the landmark is in sight, depending on the share of landmarks
+/// that the image shows.
 void SeenAgain::keep_image() {
   Image& kept = images_[next_];
   next_ = (next_ + 1) % kImages;

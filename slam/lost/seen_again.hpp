@@ -7,52 +7,54 @@
 
 namespace azimuth {
 
-/// A landmark that an image might show where it should be.
+/// A landmark that an image might show at its predicted place.
 struct Look {
-  std::int64_t landmark_id;  ///< ids grow: what is mapped later has a higher one
-  std::uint64_t sightings;   ///< so far
-  bool seen;                 ///< it does
-  double room;               ///< share of the view in which it would be taken to be where it should; counts if seen
+  std::int64_t landmark_id;  ///< Ids grow: a landmark mapped later has a higher one
+  std::uint64_t sightings;   ///< Number of bearings so far
+  bool seen;                 ///< The image shows it
+  double room;  ///< Share of the view in which any bearing would be accepted as this landmark's; used if `seen`
 };
 
-/// What images say of the pose by the landmarks that they show and those that they do not, where an image shows but
-/// some of what is there and experience alone tells which (SPEC VI.36): how often a landmark is seen again is counted
-/// by how often it has been seen, how often it was missed since the last time and how far the robot has driven since,
-/// for all landmarks together; what spoils an image as a whole is a hidden share of what it should show, of which is
-/// learnt how often it is how small and how long it stays so. What an image misses that shows little of anything was
-/// hardly missed.
+/// Learns which landmarks images show again, and judges the pose by it, for images that show only some of the landmarks
+/// in view (mathematics VI.36). The probability that a landmark is seen again is estimated by counting, over all
+/// landmarks, depending on how often it was seen, how often it was missed since, and how far the robot has driven
+/// since. Causes that affect a whole image are modelled by a hidden level, the share of the expected landmarks that it
+/// shows; the frequency and persistence of levels are learned too. A miss in an image with a low level hardly counts as
+/// a miss.
 ///
-/// Thread contract: thread-bound. Same calls, same results. Nothing allocates once no image is larger than before.
+/// Thread contract: thread-bound. The same calls give the same results. Nothing allocates once no image is larger than
+/// any before.
 class SeenAgain {
  public:
   SeenAgain();
 
-  /// ln P(image | the robot is elsewhere) / P(image | it is where it is thought to be), by what was learnt, of
-  /// the landmarks in the field of view. `bearings`: all that the image shows.
+  /// ln P(image | the robot is elsewhere) / P(image | the robot is where the filter believes), from the landmarks in
+  /// the field of view. `bearings`: number of bearings in the image.
   double weigh(std::span<const Look> looks, double path_m, int bearings);
-  /// How many landmarks the image weighed last should have shown.
+  /// Number of landmarks that the last weighed image should have shown.
   double expected() const { return expected_; }
 
-  /// The image weighed last, and those passed over before it, were taken where the robot is thought to be.
+  /// The last weighed image, and those passed over before it, were taken where the filter believes: learns from them.
   void learn();
-  /// About that there is doubt.
+  /// It is in doubt where the last weighed image was taken: keeps the image until learn() or forget_images().
   void pass_over();
-  /// Those passed over were taken elsewhere, and the next is not to be compared with any of them.
+  /// The images passed over were taken elsewhere: discards them. The next image is not compared with any previous one.
   void forget_images();
 
-  /// How often a landmark is seen that was seen so often, and missed so often, and driven so far, since the last time.
+  /// Probability that a landmark is seen, given how often it was seen, and the misses and the distance driven since
+  /// the last one.
   double probability(std::uint64_t sightings, double missed, double driven_m) const;
 
  private:
   static constexpr std::size_t kImages = 32;
   static constexpr std::size_t kSightingBins = 4, kMissBins = 5, kDistanceBins = 7, kLevels = 8;
   using Levels = std::array<double, kLevels>;
-  /// Of whether a landmark was seen; bit i: in the image i before the newest.
+  /// When a landmark was seen; bit i stands for the image i before the newest.
   using History = std::uint32_t;
   struct Image {
     double path_m = 0.0;
-    double misses = 0.0;         ///< how much of a miss it is to be missed in it
-    std::int64_t known_below{};  ///< landmarks of this id and above were not mapped then
+    double misses = 0.0;         ///< Weight of a miss in this image
+    std::int64_t known_below{};  ///< Landmarks with this id or a higher one were not yet mapped at this image
   };
   struct SeenLately {
     std::int64_t landmark_id;
@@ -62,7 +64,7 @@ class SeenAgain {
     double seen = 0.0, due = 0.0;
   };
   using Counts = std::array<Count, kSightingBins * kMissBins * kDistanceBins>;
-  /// What images tell of those to come.
+  /// Statistics for predicting images.
   struct Experience {
     Counts counts{};
     Levels occurred{};
@@ -82,20 +84,20 @@ class SeenAgain {
   void count_looks();
   void keep_image();
 
-  std::array<Image, kImages> images_;    ///< in turn
-  std::vector<SeenLately> seen_lately_;  ///< in those images, in the order of ids
+  std::array<Image, kImages> images_;    ///< Ring
+  std::vector<SeenLately> seen_lately_;  ///< Landmarks seen in those images, sorted by id
   std::size_t next_ = 0, kept_ = 0;
-  Experience experience_, undecided_;  ///< the latter of images about which there is doubt
-  Levels belief_;                      ///< of the hidden share of the last image
+  Experience experience_, undecided_;  ///< `undecided_`: from images whose place is in doubt
+  Levels belief_;                      ///< Probabilities of the last image's hidden level
   double usual_seen_ = 0.0, usual_bearings_ = 0.0;
 
-  // The image weighed last.
+  // State of the last weighed image.
   struct Due {
     std::int64_t landmark_id;
     std::uint64_t sightings;
     History history;
     bool seen;
-    double here, accident;  ///< probabilities
+    double here, accident;  ///< Probabilities that the image shows the landmark: if the robot is here, and by accident
   };
   std::vector<Due> due_;
   bool is_weighed_ = false;

@@ -9,9 +9,10 @@ namespace azimuth {
 namespace {
 
 constexpr int kMostTurns = 20;
-constexpr double kConverged = 1e-10;  // metres and radians
+constexpr double kConverged = 1e-10;  // In metres and radians
 
-/// The constraint of all pairs, linearised at the fit's means: gap + H x + G T, equation (2).
+/// The constraint of all pairs, linearised at the fit's means: gap + H x + G T, equation (2) of docs/mathematics.md,
+/// VI.30.
 class Constraint {
  public:
   Constraint(const MapGaussian& a, const MapGaussian& b, JointFit& fit) : a_(a), b_(b), fit_(fit) {
@@ -28,13 +29,13 @@ class Constraint {
     P_b_ = b.covariance(rows_b_, rows_b_);
   }
 
-  /// False: it does not fix T.
+  /// Returns false if the constraint does not determine T.
   bool linearise() {
     R_ = Eigen::MatrixXd::Identity(fit_.rows, fit_.rows);
     G_ = Eigen::MatrixXd::Zero(fit_.rows, 3);
     gap_.resize(fit_.rows);
     for (std::size_t i = 0; i < fit_.pairs.size(); ++i) set_rows(fit_.pairs[i], fit_.row_of[i]);
-    // Equation (3): at the maps' own means, and its covariance.
+    // Equation (3) of docs/mathematics.md, VI.30: the gap at the maps' own means, and its covariance.
     gap_ += (a_.mean - fit_.mean_a)(rows_a_)-R_ * (b_.mean - fit_.mean_b)(rows_b_);
     S_.compute(P_a_ + R_ * P_b_ * R_.transpose());
     if (S_.info() != Eigen::Success) return false;
@@ -45,7 +46,7 @@ class Constraint {
     return fit_.covariance_T.allFinite();
   }
 
-  /// Moves the fit's means by one step; how far.
+  /// Moves the fit's means by one step and returns the greatest change.
   double step() {
     const Eigen::Vector3d change = -fit_.covariance_T * (fit_.S_inverse_G.transpose() * gap_);
     gap_ += G_ * change;
@@ -60,7 +61,7 @@ class Constraint {
     return moved;
   }
 
-  /// Equations (4) to (7).
+  /// Equations (4) to (7) of docs/mathematics.md, VI.30.
   void finish() {
     fit_.chi2 = gap_.dot(fit_.weighted_gap);
     fit_.U_a = a_.covariance(Eigen::all, rows_a_);

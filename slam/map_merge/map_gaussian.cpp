@@ -14,7 +14,7 @@ double cross(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Eigen
   return side.x() * off.y() - side.y() * off.x();
 }
 
-/// One side of the hull of sorted points.
+/// Appends one side of the convex hull of sorted points.
 template <class Points>
 void append_chain(const Points& sorted, std::vector<Eigen::Vector2d>& hull) {
   const std::size_t begin = hull.size();
@@ -22,7 +22,7 @@ void append_chain(const Points& sorted, std::vector<Eigen::Vector2d>& hull) {
     while (hull.size() >= begin + 2 && cross(hull[hull.size() - 2], hull.back(), point) <= 0.0) hull.pop_back();
     hull.push_back(point);
   }
-  hull.pop_back();  // the first of the other side
+  hull.pop_back();  // It is the first point of the other side
 }
 
 }  // namespace

@@ -12,10 +12,10 @@ namespace azimuth {
 
 /// A saved map as a Gaussian, in its own frame.
 struct MapGaussian {
-  const MapSnapshot* map = nullptr;  ///< borrowed
-  Eigen::VectorXd mean;              ///< of pose and camera, if they are kept, and each landmark's x, y and height
+  const MapSnapshot* map = nullptr;  ///< Not owned
+  Eigen::VectorXd mean;              ///< Pose and camera, if kept, then each landmark's x, y and height
   Eigen::MatrixXd covariance;
-  std::vector<Eigen::Index> row;  ///< of each landmark's x
+  std::vector<Eigen::Index> row;  ///< Of each landmark: the row of its x
 
   std::size_t size() const { return row.size(); }
   const MapLandmark& landmark(std::size_t i) const { return map->landmarks[i]; }
@@ -26,13 +26,13 @@ struct MapGaussian {
 enum class Kept { everything, landmarks };
 MapGaussian gaussian_of(const MapSnapshot& map, Kept kept);
 
-/// A landmark of one map that is one of the other.
+/// A landmark of map a and a landmark of map b that are the same.
 struct Correspondence {
   std::size_t a = 0, b = 0;
   friend bool operator==(const Correspondence&, const Correspondence&) = default;
 };
 
-/// Whether names, kinds and heights allow it.
+/// Whether identities, kinds and heights permit the pair.
 bool may_be_one(const MapGaussian& a, const MapGaussian& b, const Correspondence& pair);
 
 /// The convex hull, counter-clockwise.

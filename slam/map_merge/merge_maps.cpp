@@ -10,9 +10,9 @@
 namespace azimuth {
 namespace {
 
-constexpr double kSureLogOdds = 7.0;  // a thousand to one
+constexpr double kSureLogOdds = 7.0;  // A thousand to one
 
-/// A landmark that neither drive has moved by a bit.
+/// Whether the maps share a landmark with bit-identical coordinates.
 bool same_origin(const MapSnapshot& a, const MapSnapshot& b) {
   return std::any_of(b.landmarks.begin(), b.landmarks.end(), [&](const MapLandmark& other) {
     return std::any_of(a.landmarks.begin(), a.landmarks.end(), [&](const MapLandmark& one) {
@@ -37,7 +37,7 @@ std::vector<MapOverlap> explanations_of(const MapGaussian& a, const MapGaussian&
   return explanations;
 }
 
-/// Landmarks of b whose name a has for one that is elsewhere.
+/// Marks the unpaired landmarks of b whose identity a landmark of a has.
 std::vector<bool> moved_of(const MapGaussian& a, const MapGaussian& b, const JointFit& fit) {
   std::vector<bool> moved(b.size(), false);
   for (std::size_t k = 0; k < b.size(); ++k) {

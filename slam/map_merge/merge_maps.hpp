@@ -8,37 +8,38 @@
 
 namespace azimuth {
 
-/// Why two maps were not merged.
+/// The reason why two maps were not merged.
 enum class MergeRefusal : std::uint8_t {
-  none,          ///< they were
-  looks,         ///< landmarks of one are known by their looks
-  other_names,   ///< one has names that the sensor sees, the other has none
-  same_origin,   ///< one was made from the other: what both know would be counted twice
-  no_overlap,    ///< nothing that they have in common is beyond chance
-  several_ways,  ///< they fit together in more than one way
+  none,          ///< The maps were merged
+  looks,         ///< Landmarks of one map are identified by their appearance
+  other_names,   ///< Only one map has identities that the sensor reads
+  same_origin,   ///< One map was made from the other: common information would count twice
+  no_overlap,    ///< The common part is not significant against chance
+  several_ways,  ///< The maps fit together in several ways
 };
 
 struct MergedMaps {
   MergeRefusal refusal = MergeRefusal::no_overlap;
-  MapSnapshot map;                                       ///< in the frame of the first, with its pose and camera
-  Pose2 T_a_b;                                           ///< frame of the second in that of the first
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of T_a_b: (x [m], y [m], heading [rad])
-  std::size_t common = 0;                                ///< landmarks that were in both
-  std::size_t added = 0;                                 ///< that only the second had
-  std::size_t moved = 0;                                 ///< of one name, but elsewhere: the first's are kept
-  double chi2 = 0.0;                                     ///< of the landmarks in common
-  std::size_t degrees = 0;                               ///< of freedom that it has
-  double log_odds = 0.0;                                 ///< of the overlap, against chance
+  MapSnapshot map;                                       ///< In the frame of map a, with its pose and camera
+  Pose2 T_a_b;                                           ///< Frame of map b in that of map a
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< Covariance of T_a_b: (x [m], y [m], heading [rad])
+  std::size_t common = 0;                                ///< Number of landmarks in both maps
+  std::size_t added = 0;                                 ///< Number of landmarks only in map b
+  /// Number of identities whose landmark is at another place in map b; the landmarks of map a are kept
+  std::size_t moved = 0;
+  double chi2 = 0.0;        ///< Chi-square of the common landmarks
+  std::size_t degrees = 0;  ///< Degrees of freedom of chi2
+  double log_odds = 0.0;    ///< Log odds of the overlap against chance
 };
 
-/// What forbids to merge two maps before it is asked how they lie; `none`: nothing. Of several maps, it must be none of
-/// each two.
+/// The reason that forbids a merge of two maps, irrespective of their geometry; `none` if there is none. For a merge of
+/// several maps, it must be `none` for each pair.
 MergeRefusal why_not_merged(const MapSnapshot& a, const MapSnapshot& b);
 
-/// Finds how map b lies in map a of the same building, by what they have in common, and adjusts both. Mathematics in
-/// docs/mathematics.md, VI.30. The maps must be of drives that know nothing of each other.
+/// Finds the pose of map b in map a, both of the same building, by their common landmarks, and adjusts both maps. The
+/// mathematics is in docs/mathematics.md, VI.30. The maps must come from independent drives.
 ///
-/// Reentrant. Takes time with the cube of the number of landmarks in common. Same maps, same bits.
+/// Reentrant. The time grows with the cube of the number of common landmarks. The same maps give the same bits.
 MergedMaps merge_maps(const MapSnapshot& a, const MapSnapshot& b);
 
 }  // namespace azimuth

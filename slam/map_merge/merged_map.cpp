@@ -5,11 +5,11 @@
 namespace azimuth {
 namespace {
 
-/// A coordinate of the merged map: one of a's, or that of a landmark of b carried into a's frame.
+/// The origin of a coordinate of the merged map: a coordinate of a, or of a landmark of b transformed to a's frame.
 struct Source {
   bool of_a = true;
-  Eigen::Index row = 0;   ///< in its map; for x and y of b, of the landmark's x
-  Eigen::Index part = 0;  ///< of a landmark of b: 0 x, 1 y, 2 the height
+  Eigen::Index row = 0;   ///< Row in its map; for a landmark of b, the row of the landmark's x
+  Eigen::Index part = 0;  ///< For a landmark of b: 0 for x, 1 for y, 2 for the height
 };
 
 class Merging {
@@ -36,7 +36,7 @@ class Merging {
   }
 
  private:
-  /// A height that only b knows comes from there.
+  /// Adds a landmark of a. A height that only b knows is taken from b.
   void add_of_a(std::size_t i, const Correspondence* pair) {
     MapLandmark landmark = a_.landmark(i);
     const Eigen::Index row = a_.row[i];
@@ -69,7 +69,7 @@ class Merging {
     sources_.push_back({false, b_.row[k], 2});
   }
 
-  /// Equation (9): each coordinate's derivatives by a, by b and by T, row by row.
+  /// Equation (9) of docs/mathematics.md, VI.30: the derivatives of each coordinate by a, by b and by T, row by row.
   void set_covariance() {
     const Eigen::Index size = as_index(sources_.size()), size_a = a_.mean.size(), size_b = b_.mean.size();
     Eigen::MatrixXd L_a = Eigen::MatrixXd::Zero(size, size_a), L_b = Eigen::MatrixXd::Zero(size, size_b);

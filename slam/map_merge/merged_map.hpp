@@ -5,8 +5,8 @@
 
 namespace azimuth {
 
-/// Map a as the fit corrects it, and the landmarks of b that it has not, in its frame. Landmarks of b in `left_out` are
-/// forgotten. Pose, camera and numbers are a's.
+/// Map a as corrected by the fit, plus the landmarks that only b has, in a's frame. Landmarks of b marked in `left_out`
+/// are dropped. Pose, camera and ids are those of a.
 MapSnapshot merged_map(const MapGaussian& a, const MapGaussian& b, const JointFit& fit,
                        const std::vector<bool>& left_out);
 

@@ -11,17 +11,17 @@ namespace azimuth {
 namespace {
 
 constexpr int kMostExchanges = 30;
-// 99.99 % of chi squared with as many degrees of freedom: two halls have dozens of pairs, and a right one that fails is
-// a landmark mapped twice.
+// The 99.99 % quantile of chi squared with two and three degrees of freedom. Two halls have dozens of pairs, and a
+// correct pair that fails the gate means a landmark mapped twice.
 constexpr double kGate2 = 18.4, kGate3 = 21.1;
-constexpr double kMappedByBoth = 0.7;  // probability, of a landmark where both maps are
+constexpr double kMappedByBoth = 0.7;  // Probability that both maps contain a landmark in their common area
 constexpr double kLeastArea_m2 = 1.0, kLeastHeights_m = 0.5;
 
 double gate_of(const MapGaussian& a, const MapGaussian& b, const Correspondence& pair) {
   return rows_of_pair(a, b, pair) == 3 ? kGate3 : kGate2;
 }
 
-/// The pair that fits the others worst, if it does not pass; else the number of pairs.
+/// Index of the pair that fits the others worst, if it fails the gate; else the number of pairs.
 std::size_t worst_pair(const MapGaussian& a, const MapGaussian& b, const JointFit& fit) {
   std::size_t worst = fit.pairs.size();
   double most = 1.0;
@@ -34,7 +34,7 @@ std::size_t worst_pair(const MapGaussian& a, const MapGaussian& b, const JointFi
   return worst;
 }
 
-/// Those of nearest landmarks that pass, given the fit, and are not in it.
+/// The pairs of nearest landmarks that are not in the fit and pass the gate, given the fit.
 std::vector<Correspondence> further_pairs(const MapGaussian& a, const MapGaussian& b, const JointFit& fit,
                                           double tolerance_m) {
   std::vector<Correspondence> further;
@@ -47,7 +47,7 @@ std::vector<Correspondence> further_pairs(const MapGaussian& a, const MapGaussia
   return further;
 }
 
-/// How many landmarks of one map, that are in no pair, lie where the other map is.
+/// Number of unpaired landmarks of one map inside the hull of the other.
 std::size_t lonely(const MapGaussian& map, const std::vector<bool>& paired, const Pose2& T_other_map,
                    const std::vector<Eigen::Vector2d>& hull_of_other) {
   std::size_t count = 0;

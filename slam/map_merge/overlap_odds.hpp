@@ -5,14 +5,14 @@
 
 namespace azimuth {
 
-/// One explanation of what two maps have in common.
+/// One hypothesis about the common landmarks of two maps.
 struct MapOverlap {
   JointFit fit;
-  double log_odds = 0.0;  ///< against two maps that have nothing in common
+  double log_odds = 0.0;  ///< Log odds against two maps without common landmarks
 };
 
-/// Which landmarks are one, near `start`: pairs are taken out and in, each judged given all others, until none changes.
-/// Equation (8).
+/// Finds the common landmarks near `start`: pairs are removed and added, each judged given all others, until no pair
+/// changes. Equation (8) of docs/mathematics.md, VI.30.
 MapOverlap explain(const MapGaussian& a, const MapGaussian& b, const Pose2& start, double tolerance_m);
 
 }  // namespace azimuth

@@ -14,8 +14,8 @@
 namespace azimuth {
 namespace {
 
-constexpr std::size_t kMostPairs = 600;      // of landmarks of b, that are compared with those of a
-constexpr std::size_t kMostTried = 400'000;  // transforms
+constexpr std::size_t kMostPairs = 600;      // Pairs of landmarks of b that are compared with those of a
+constexpr std::size_t kMostTried = 400'000;  // Number of transforms
 constexpr std::size_t kMostKept = 24;
 constexpr std::size_t kMostRefined = 400;
 constexpr double kSigmas = 3.5;
@@ -44,7 +44,7 @@ double typical_variance_m2(const MapGaussian& map) {
   return median(std::move(variances));
 }
 
-/// Of the distance between two landmarks of one map: what the map's frame is in doubt of cancels.
+/// Variance of the distance between two landmarks of one map; the common error of the map's frame cancels.
 double distance_variance_m2(const MapGaussian& map, std::size_t i, std::size_t k, const Eigen::Vector2d& along) {
   const Eigen::Matrix2d both = map.covariance.block<2, 2>(map.row[i], map.row[k]);
   const Eigen::Matrix2d relative = map.covariance_of(i) + map.covariance_of(k) - both - both.transpose();
@@ -63,7 +63,7 @@ Stretch stretch_of(const MapGaussian& map, std::size_t i, std::size_t k) {
   return {length_m, distance_variance_m2(map, i, k, between / length_m), i, k};
 }
 
-/// Which landmarks of a map are near a place.
+/// Spatial index of a map's landmarks.
 class Cells {
  public:
   Cells(const MapGaussian& map, double side_m) : map_(map), side_m_(side_m) {
@@ -119,7 +119,7 @@ class Search {
   }
 
  private:
-  /// Short ones say little about the heading.
+  /// Short distances are skipped, since they hardly constrain the heading.
   void try_stretch(const Stretch& of_b) {
     if (of_b.length_m < 3.0 * tolerance_m_) return;
     const double most_m = kSigmas * std::sqrt(of_b.variance_m2 + widest_m2_) + 0.02;
@@ -194,7 +194,7 @@ class Search {
   std::vector<SuggestedTransform> kept_;
 };
 
-/// The nearest landmark that b's may be, for each landmark of b; a's size: none.
+/// For each landmark of b: the nearest landmark of a that may be the same; a.size() if there is none.
 std::vector<std::size_t> nearest_in_a(const MapGaussian& a, const MapGaussian& b, const Pose2& T_a_b,
                                       double tolerance_m, const Cells& cells) {
   std::vector<std::size_t> nearest(b.size(), a.size());

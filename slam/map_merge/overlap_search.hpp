@@ -9,24 +9,26 @@
 
 namespace azimuth {
 
-/// T_a_b that pairs of landmarks suggest.
+/// A hypothesis of T_a_b from pairs of landmarks.
 struct SuggestedTransform {
   Pose2 T_a_b;
-  std::size_t agreeing = 0;  ///< landmarks of b that land on one of a
+  std::size_t agreeing = 0;  ///< Number of landmarks of b that coincide with one of a
 };
 
-/// Two landmarks of each map that are equally far apart fix T_a_b; those that bring the most landmarks of b onto
-/// landmarks of a come first. Far enough from each other, and not many. The effort is bounded. Same maps, same bits.
+/// Two landmarks of each map at equal distances determine T_a_b. Returns a limited number of distinct hypotheses; those
+/// that map the most landmarks of b onto landmarks of a come first. The effort is bounded. The same maps give the same
+/// bits.
 std::vector<SuggestedTransform> suggest_transforms(const MapGaussian& a, const MapGaussian& b, double tolerance_m);
 
-/// How near a landmark of b must land to one of a: by what both maps are in doubt of, and less than to its neighbours.
+/// The distance within which landmarks of b and a coincide: it follows from the uncertainty of both maps and stays
+/// below the spacing of landmarks.
 double landing_tolerance_m(const MapGaussian& a, const MapGaussian& b);
 
-/// Landmarks that are each other's nearest, nearer than the tolerance, and may be one by name, kind and height.
+/// Pairs of mutually nearest landmarks within the tolerance whose identities, kinds and heights permit the pair.
 std::vector<Correspondence> mutual_pairs(const MapGaussian& a, const MapGaussian& b, const Pose2& T_a_b,
                                          double tolerance_m);
 
-/// How far the landmarks of b lie from each other in the frame of a by the one transform and by the other, at most.
+/// The greatest distance between the two positions that the transforms give a landmark of b in the frame of a.
 double farthest_m(const MapGaussian& b, const Pose2& one, const Pose2& other);
 
 }  // namespace azimuth

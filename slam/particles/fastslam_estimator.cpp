@@ -25,8 +25,8 @@ LampCamera lamp_camera(const Rig& rig, const FastSlamSettings& settings) {
 
 }  // namespace
 
-FastSlamEstimator::FastSlamEstimator(const Rig& rig, const FastSlamSettings& settings, const HealthSettings& health,
-                                     const MapStart& start, const RelocalisationSettings& relocalisation)
+FastSlamEstimator::FastSlamEstimator(const Rig& rig, const FastSlamSettings& settings, const MapStart& start,
+                                     const HealthSettings& health, const RelocalisationSettings& relocalisation)
     : rig_(rig),
       directions_(rig),
       judged_by_(health),
@@ -64,8 +64,8 @@ void FastSlamEstimator::update(const BearingSet& observations) {
   if (filter_.speaks_for_the_map()) last_accepted_m_ = path_m_;
 }
 
-/// All of them or, where reflections are more than there is room for, first those where the map expects a lamp: lamps
-/// that get no turn would count as missed, until none is left.
+/// Selects the bearings to use. If there are more than fit (many reflections), bearings at predicted lamps come first;
+/// otherwise lamps without a bearing would count as missed until all are deleted.
 void FastSlamEstimator::choose(const std::vector<Bearing>& bearings) {
   sightings_.clear();
   expected_.clear();
@@ -88,8 +88,8 @@ void FastSlamEstimator::use(const Bearing& bearing) {
       make_sighting(azimuth_rad, kPi / 2.0 - bearing.elevation_rad, noise_of(bearing), bearing.identity));
 }
 
-/// With what the rig says is unknown of the tilt, which particles do not estimate, and with the floor across the
-/// direction: of the azimuth it is that over the distance from the zenith.
+/// Noise of a bearing, including the unknown tilt of the camera, which particles do not estimate, and a floor. The
+/// floor applies across the direction; for the azimuth it is divided by the sine of the zenith angle.
 Symmetric2 FastSlamEstimator::noise_of(const Bearing& bearing) const {
   constexpr double kNearZenith = 0.01;
   Symmetric2 covariance = Symmetric2::of(directions_.covariance(bearing));
@@ -150,7 +150,7 @@ Judgement FastSlamEstimator::judged(const Eigen::Matrix3d& covariance, double pa
   return judgement;
 }
 
-/// Without a landmark that is a lamp beyond doubt.
+/// The reason while no landmark is proven to be a lamp.
 std::string_view FastSlamEstimator::why_starting(const Judgement& judgement) const {
   if (without_elevation_) return "bearings bring no elevation";
   if (lights_ > FastSlam::kMostSightings) return "too many lights to begin a map with";
@@ -159,9 +159,9 @@ std::string_view FastSlamEstimator::why_starting(const Judgement& judgement) con
 }
 
 std::unique_ptr<Estimator> make_fastslam_estimator(const Rig& rig, const FastSlamSettings& settings,
-                                                   const HealthSettings& health, const MapStart& start,
+                                                   const MapStart& start, const HealthSettings& health,
                                                    const RelocalisationSettings& relocalisation) {
-  return std::make_unique<FastSlamEstimator>(rig, settings, health, start, relocalisation);
+  return std::make_unique<FastSlamEstimator>(rig, settings, start, health, relocalisation);
 }
 
 }  // namespace azimuth

@@ -18,18 +18,18 @@
 
 namespace azimuth {
 
-/// FastSLAM over lamps seen by a camera that looks up (SPEC part II). Bearings need an elevation; those without are not
-/// used. Published are the pose and the map of the particle of the greatest weight.
+/// FastSLAM with lamps seen by a camera that looks up (mathematics part II). Bearings without an elevation are ignored.
+/// The published pose and map are those of the particle with the greatest weight.
 ///
-/// A robot that begins from a map without knowing the pose is searched for: until it is found, what images show changes
-/// nothing.
+/// A robot that starts from a map with an unknown pose is relocalised first; until then, images change neither pose nor
+/// map.
 ///
 /// Thread contract: thread-bound.
 class FastSlamEstimator final : public Estimator {
  public:
-  /// A map to start from must be none of which why_unfit_for_fastslam() says anything.
-  FastSlamEstimator(const Rig& rig, const FastSlamSettings& settings, const HealthSettings& health = {},
-                    const MapStart& start = {}, const RelocalisationSettings& relocalisation = {});
+  /// A map to start from must be fit: why_unfit_for_fastslam() must be empty for it.
+  FastSlamEstimator(const Rig& rig, const FastSlamSettings& settings, const MapStart& start = {},
+                    const HealthSettings& health = {}, const RelocalisationSettings& relocalisation = {});
 
   bool odometry_begins(bool goes_on) override;
   void predict(const Motion& motion) override;
@@ -43,10 +43,10 @@ class FastSlamEstimator final : public Estimator {
   const FastSlam& filter() const { return filter_; }
 
  private:
-  // fastslam_saved_map.cpp
+  // Defined in fastslam_saved_map.cpp.
   void start_from(const MapStart& start);
   void begin_at(const StartPose& pose);
-  void begin_search(const std::optional<Whereabouts>& within);
+  void begin_search(const std::optional<PositionPrior>& within);
   CameraView camera_view() const;
   bool search();
   std::string_view why_lost() const;
@@ -68,16 +68,16 @@ class FastSlamEstimator final : public Estimator {
   LampAssociation association_;
   double inner_margin_;
   Relocaliser relocaliser_;
-  std::optional<StartPose> undecided_;  ///< until the odometry has begun
-  bool searching_ = false;              // for the pose
+  std::optional<StartPose> undecided_;  ///< start pose, pending until odometry starts
+  bool searching_ = false;              // whether relocalisation is running
   AssociationCounts counts_;
   double path_m_ = 0.0, last_accepted_m_ = 0.0;
   ImageTroubles troubles_;
-  std::size_t lights_ = 0;          // in the last image
-  bool without_elevation_ = false;  // the last image had bearings, but none of use
+  std::size_t lights_ = 0;          // number of bearings in the last image
+  bool without_elevation_ = false;  // the last image had bearings, but none with an elevation
   std::vector<LampSighting> sightings_;
-  std::vector<SeenDirection> directions_seen_;  // the same, for a search
-  std::vector<ExpectedBearing> expected_;       // of an image with more than can be used
+  std::vector<SeenDirection> directions_seen_;  // the same detections, for relocalisation
+  std::vector<ExpectedBearing> expected_;       // used only when an image has too many bearings
 };
 
 }  // namespace azimuth

@@ -1,4 +1,4 @@
-// Where FastSLAM expects to see its lamps.
+// Predicted bearings of FastSLAM's lamps.
 
 #include <algorithm>
 #include <cmath>
@@ -7,13 +7,15 @@
 
 namespace azimuth {
 
-/// Association asks for ln N(nu; 0, S) > ln N(0; 0, Q) - g^2 / 2, so for d^2 = nu^T S^-1 nu below this. (The paper's
-/// likelihood, of what the sighting leaves once it has moved the pose, lets more pass.)
+/// Squared gate on d^2 = nu^T S^-1 nu. The association requires ln N(nu; 0, S) > ln N(0; 0, Q) - g^2 / 2, which is
+/// equivalent to d^2 below this value. (The paper's likelihood uses the residual after the detection has corrected the
+/// pose, which lets more pass.)
 static double gate2(const Symmetric2& S, const Symmetric2& Q, double sigmas) {
   return std::max(0.0, sigmas * sigmas - std::log(S.determinant() / Q.determinant()));
 }
 
-/// From the best particle's map, as far as the camera reaches. The gates of both angles bound the ellipse.
+/// Predicts the lamps of the best particle's map within the camera's range. The gates of the two angles enclose the
+/// ellipse of the joint gate.
 void FastSlamEstimator::expect(std::vector<ExpectedBearing>& out) const {
   out.clear();
   const Particles& particles = filter_.particles();

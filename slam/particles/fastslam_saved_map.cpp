@@ -1,4 +1,4 @@
-// FastSlamEstimator: the map as it is saved, how one begins from it, and the search for the robot in it.
+// FastSlamEstimator: saving a map, starting from a saved map, and relocalisation in it.
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ std::optional<std::string_view> why_unfit_for_fastslam(const MapSnapshot& map, c
   if (!std::ranges::all_of(map.landmarks, &MapLandmark::has_height))
     return "its landmarks have no heights, and estimator \"fastslam\" maps in space";
   if (map.landmarks.size() > as_size(settings.max_landmarks))
-    return "it has more landmarks than fastslam.max_landmarks";
+    return "it has more landmarks than a particle's map may have";
   return why_names_do_not_fit(map, rig);
 }
 
@@ -42,9 +42,9 @@ bool FastSlamEstimator::odometry_begins(bool goes_on) {
   return pose && goes_on;
 }
 
-/// As high and as far as the camera sees.
+/// The camera's view for relocalisation.
 CameraView FastSlamEstimator::camera_view() const {
-  constexpr double kLowest_rad = 1.4;  // zenith: lamps lower than that are too far away to search for
+  constexpr double kLowest_rad = 1.4;  // zenith angle; lamps beyond it are too far away for relocalisation
   const LampCamera& camera = filter_.camera();
   double highest_m = 0.0;
   for (const Eigen::Vector3d& p_map : filter_.particles().positions(filter_.best()))
@@ -59,7 +59,7 @@ CameraView FastSlamEstimator::camera_view() const {
   return view;
 }
 
-void FastSlamEstimator::begin_search(const std::optional<Whereabouts>& within) {
+void FastSlamEstimator::begin_search(const std::optional<PositionPrior>& within) {
   const Particles& particles = filter_.particles();
   const std::size_t best = filter_.best();
   std::vector<KnownLandmark> known;
@@ -72,8 +72,8 @@ void FastSlamEstimator::begin_search(const std::optional<Whereabouts>& within) {
   searching_ = true;
 }
 
-/// True when the robot has been found: as if its pose had been known to half a metre, so that the image correlates it
-/// with the map as it should be.
+/// Runs relocalisation with the last image. Returns true when the robot was found. The pose then gets a standard
+/// deviation of half a metre, so that the update with the image builds the correlation with the map.
 bool FastSlamEstimator::search() {
   directions_seen_.clear();
   for (const LampSighting& seen : sightings_)
@@ -97,7 +97,7 @@ std::string_view FastSlamEstimator::why_lost() const {
   return "none of the landmarks is where it should be";
 }
 
-/// Only landmarks that are lamps beyond doubt.
+/// Saves only landmarks that are proven to be lamps.
 bool FastSlamEstimator::save_map(MapSnapshot& out) const {
   out.clear();
   if (judged(belief().total_covariance(), path_m_).health == Health::lost || !filter_.save(out)) return false;

@@ -10,7 +10,7 @@
 namespace azimuth {
 namespace {
 
-/// The place of `member` in `members`, where it is put if need be.
+/// Index of `member` in `members`; appends it if it is not there yet.
 int place_of(int member, std::vector<int>& place, std::vector<int>& members) {
   if (place[as_size(member)] == kUnassigned) {
     place[as_size(member)] = static_cast<int>(members.size());
@@ -72,7 +72,7 @@ void LampAssociation::assign(const LampPairs& pairs, std::span<int> target_of) {
     if (column_of_row_[r] != kUnassigned) target_of[as_size(sightings_[r])] = targets_[as_size(column_of_row_[r])];
 }
 
-/// Sighting by sighting, the likeliest lamp that is not taken yet.
+/// Associates each detection in turn with its most likely free lamp.
 void LampAssociation::take_nearest(const LampPairs& pairs, std::span<int> target_of) {
   fit(pairs_of_target_, pairs.targets, 0);  // 1: taken
   const LampPair* best = nullptr;

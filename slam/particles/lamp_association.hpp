@@ -7,10 +7,11 @@
 
 namespace azimuth {
 
-/// Which sighting is of which lamp (SPEC II.5): all together, by the best assignment, or each by itself, the nearest.
-/// A sighting that nothing else competes for, nor for its only lamp, is left out of the assignment.
+/// Data association of detections with lamps (mathematics II.5): jointly by the best assignment, or each detection with
+/// its nearest lamp. A detection with a single possible lamp, for which no other detection competes, is associated
+/// directly and left out of the assignment.
 ///
-/// Thread contract: thread-bound; does not allocate once grown to the largest image.
+/// Thread contract: thread-bound; does not allocate once it has grown to the largest image.
 class LampAssociation final : public LampAssociator {
  public:
   LampAssociation(LampAssociationMethod method, LampCost cost) : method_(method), cost_(cost) {}
@@ -28,7 +29,7 @@ class LampAssociation final : public LampAssociator {
   std::vector<int> pairs_of_sighting_, pairs_of_target_;
   std::vector<LampPair> disputed_;
   std::vector<int> row_of_sighting_, column_of_target_;  // kUnassigned: not disputed
-  std::vector<int> sightings_, targets_;                 // of the rows and columns
+  std::vector<int> sightings_, targets_;                 // detection of each row and target of each column of table_
   std::vector<double> table_, alone_;
   std::vector<int> column_of_row_;
 };

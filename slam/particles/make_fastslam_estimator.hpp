@@ -12,11 +12,11 @@
 
 namespace azimuth {
 
-/// FastSLAM (SPEC part II) for a rig whose bearings carry elevations.
+/// Makes a FastSLAM estimator (mathematics part II) for a rig whose bearings carry elevations.
 std::unique_ptr<Estimator> make_fastslam_estimator(const Rig& rig, const FastSlamSettings& settings,
-                                                   const HealthSettings& health = {}, const MapStart& start = {},
+                                                   const MapStart& start = {}, const HealthSettings& health = {},
                                                    const RelocalisationSettings& relocalisation = {});
-/// Why it cannot start from `map`; nothing: it can.
+/// The reason why the estimator cannot start from `map`; empty if it can.
 std::optional<std::string_view> why_unfit_for_fastslam(const MapSnapshot& map, const Rig& rig,
                                                        const FastSlamSettings& settings);
 

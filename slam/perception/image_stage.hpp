@@ -8,15 +8,15 @@
 
 namespace azimuth {
 
-/// From the pixels of a frame to its bearing set, the same way for daemon and replay.
+/// Turns the pixels of a frame into a bearing set. The daemon and the replay tool both use this stage.
 ///
-/// Thread contract: thread-bound. Allocates as the front end does.
+/// Thread contract: thread-bound. Memory allocation is that of the front end.
 class ImageStage {
  public:
   explicit ImageStage(std::unique_ptr<Perception> front_end) : front_end_(std::move(front_end)) { assert(front_end_); }
 
-  /// Replaces what `out` holds by what the frame shows, with its stamp and sequence. `pixels` without bytes: a frame
-  /// that cannot be used, which gives no bearings and says that it is unreadable.
+  /// Replaces the content of `out` with the bearings that the frame shows, its stamp and its sequence number. A
+  /// `pixels` without bytes denotes an unusable frame: `out` gets no bearings and the trouble `unreadable`.
   void observe(const ImageView& pixels, Stamp stamp, std::uint64_t sequence, BearingSet& out) {
     out.clear();
     if (pixels.bytes.empty()) {

@@ -9,19 +9,20 @@
 
 namespace azimuth {
 
-/// The settings of all image front ends; one of them is used.
+/// The settings of all image front ends; a run uses one of them.
 struct PerceptionSettings {
   ColourSettings colour;
   SiftSettings sift;
   LampSettings lamps;
 };
 
-/// The front end that finds bearings in the images of a rig's camera, those in which ImageWatch finds trouble left out.
-/// Null for `bearings`, which come ready made.
+/// Makes the front end that finds bearings in the images of the rig's camera. The front end skips images in which
+/// ImageWatch finds trouble. Returns null for FrontEnd::bearings, whose bearings need no image processing.
 std::unique_ptr<Perception> make_perception(FrontEnd front_end, const CameraRig& rig,
                                             const PerceptionSettings& settings);
 
-/// What compressed images are to be decoded to for a front end: gray8 where brightness is all it uses, else rgb8.
+/// The pixel format to which compressed images must be decoded for a front end: gray8 if the front end uses only
+/// brightness, else rgb8.
 PixelFormat decoded_format(FrontEnd front_end);
 
 }  // namespace azimuth

@@ -1,21 +1,23 @@
 #pragma once
-// The interface every image front end has: colour (SPEC I.11), SIFT (I.12), lamps (II.1).
+// The interface of every image front end: colour (mathematics I.11), SIFT (mathematics I.12) and lamps (mathematics
+// II.1).
 
 #include "slam/sample/bearings.hpp"
 #include "slam/sample/image.hpp"
 
 namespace azimuth {
 
-/// Finds in images what the estimator can use.
+/// Finds bearings in images.
 ///
-/// Thread contract: thread-bound. Nothing allocates once storage has grown to the largest image. Same images in the
-/// same order, same bits.
+/// Thread contract: thread-bound. Nothing allocates once storage has grown to the largest image. The same images in the
+/// same order give the same bits.
 class Perception {
  public:
   virtual ~Perception() = default;
 
-  /// Replaces what `out` holds by what `image` shows, in the robot's frame; stamp and sequence are the caller's. An
-  /// image that is of no use gives no bearings and says why (`out.trouble`). Any bytes are safe.
+  /// Replaces the content of `out` with the bearings that `image` shows, in the robot's frame. The caller sets the
+  /// stamp and the sequence number. An unusable image gives no bearings, and `out.trouble` names the reason. Any bytes
+  /// are safe.
   virtual void observe(const ImageView& image, BearingSet& out) = 0;
 };
 

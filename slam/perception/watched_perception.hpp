@@ -7,8 +7,8 @@
 
 namespace azimuth {
 
-/// A front end that only sees images of use: those in which ImageWatch finds trouble give no bearings and say what it
-/// is.
+/// Wraps a front end so that it gets only usable images. If ImageWatch finds trouble in an image, the bearing set is
+/// empty and names the trouble.
 ///
 /// Thread contract: thread-bound. Nothing allocates once storage has grown to the largest image.
 class WatchedPerception final : public Perception {

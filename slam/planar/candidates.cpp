@@ -10,8 +10,8 @@
 namespace azimuth {
 namespace {
 
-// Below this many standard deviations of parallax the relative entropy is far above any useful threshold (SPEC I.9:
-// 31 at four of them); sampling it would be wasted.
+// Below this many standard deviations of parallax the relative entropy is far above any useful threshold (mathematics
+// I.9: 31 at four of them); sampling the entropy would be a waste.
 constexpr double kHopelessSigmas = 3.0;
 
 }  // namespace
@@ -27,7 +27,7 @@ void Candidates::observe(BearingEkf& ekf, std::span<const Bearing> unmapped) {
   for (const Bearing& bearing : unmapped) {
     Candidate& candidate = candidate_for(bearing);
     const bool seen_already = candidate.count > 0 && candidate.bearings[candidate.count - 1].clone == Candidate::kHere;
-    if (seen_already) continue;  // a name stands for one landmark: its first bearing in the image counts
+    if (seen_already) continue;  // a name belongs to one landmark: its first bearing in the image counts
     candidate.last_image = image_;
     append(candidate, bearing);
   }
@@ -77,7 +77,8 @@ void Candidates::erase_candidate(std::size_t at) {
   candidates_.erase(candidates_.begin() + static_cast<std::ptrdiff_t>(at));
 }
 
-/// SPEC I.9: of all pairs (earlier, present) under the threshold the one with the smallest relative entropy.
+/// mathematics I.9: of all pairs (earlier bearing, present bearing) under the threshold, the one with the smallest
+/// relative entropy.
 std::optional<Candidates::Pair> Candidates::find_pair(const BearingEkf& ekf, const Candidate& candidate) const {
   if (static_cast<int>(candidate.count) < std::max(2, settings_.delayed.min_observations)) return std::nullopt;
   const Candidate::Bearing& newest = candidate.bearings[candidate.count - 1];
@@ -113,12 +114,12 @@ void Candidates::initialise(BearingEkf& ekf, std::size_t at, const Pair& pair) {
                       candidate.bearings[candidate.count - 1].radius_px});
   initialised_.push_back(candidate);  // its clones live until drop_unused_clones()
   Candidate& rest = initialised_.back();
-  rest.bearings[pair.earlier] = rest.bearings[rest.count - 2];  // the pair is used up
+  rest.bearings[pair.earlier] = rest.bearings[rest.count - 2];  // the pair must not be used again
   rest.count -= 2;
   erase_candidate(at);
 }
 
-/// SPEC I.2 step 5: one batch update with the bearings that were not used by the pair.
+/// mathematics I.2 step 5: one batch update with the bearings that were not used by the pair.
 void Candidates::apply_remaining(BearingEkf& ekf, const Candidate& candidate, Index block) {
   remaining_.clear();
   for (const Candidate::Bearing& bearing : candidate.seen()) {
@@ -140,8 +141,8 @@ void Candidates::apply_remaining(BearingEkf& ekf, const Candidate& candidate, In
   ekf.update(remaining_);
 }
 
-/// Candidates not seen for long are dropped, so that their clones do not stay for ever (SPEC I.2). Time is counted in
-/// clones: a robot that waits forgets nothing.
+/// Drops candidates that have not been seen for long, so that their clones do not stay for ever (mathematics I.2). Time
+/// is counted in clones: nothing expires while the robot stands still.
 void Candidates::expire(const BearingEkf& ekf) {
   if (settings_.delayed.expire_after_clones <= 0) return;
   const auto limit = static_cast<std::uint64_t>(settings_.delayed.expire_after_clones);
@@ -164,7 +165,7 @@ void Candidates::drop_unused_clones(BearingEkf& ekf) {
   }
 }
 
-/// Bearings from nearly the same place as the last one of their landmark add no parallax: not worth a clone.
+/// A bearing from nearly the same place as the last one of its landmark adds no parallax and is not worth a clone.
 void Candidates::drop_repeated(const BearingEkf& ekf) {
   if (settings_.delayed.min_clone_baseline_m <= 0.0) return;
   const Eigen::Vector2d p_map_robot = ekf.state().position(JointState::kPose);
@@ -175,7 +176,7 @@ void Candidates::drop_repeated(const BearingEkf& ekf) {
   }
 }
 
-/// SPEC I.2 step 7.
+/// mathematics I.2 step 7: clones the robot's pose if a candidate has a bearing from it.
 void Candidates::clone_here(BearingEkf& ekf) {
   const auto wants_clone = [](const Candidate& candidate) {
     return candidate.count > 0 && candidate.bearings[candidate.count - 1].clone == Candidate::kHere;
@@ -192,7 +193,7 @@ void Candidates::clone_here(BearingEkf& ekf) {
   }
 }
 
-/// A free slot for a clone; when there is none the oldest clone gives way, with its bearings.
+/// A free slot for a clone. If there is none, the oldest clone and its bearings are dropped.
 std::size_t Candidates::free_slot(BearingEkf& ekf) {
   const auto is_free = [](const Clone& clone) { return clone.block == 0; };
   const auto found = std::find_if(clones_.begin(), clones_.end(), is_free);

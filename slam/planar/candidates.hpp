@@ -12,12 +12,12 @@
 
 namespace azimuth {
 
-/// A landmark seen but not yet in the state, with the bearings it was seen under (SPEC I.1, I.2).
+/// A landmark that is not in the state yet, with the bearings under which it was seen (mathematics I.1, I.2).
 struct Candidate {
   struct Bearing {
-    int clone;           ///< slot of the clone it was taken from; kHere: the robot's present pose
+    int clone;           ///< Slot of the clone of the pose at which it was taken; kHere: the robot's present pose
     double azimuth_rad;  ///< in the camera's frame
-    double sigma_rad;    ///< its standard deviation
+    double sigma_rad;    ///< Standard deviation of the azimuth
     double radius_px;    ///< see azimuth::Bearing
   };
   static constexpr int kHere = -1;
@@ -25,16 +25,17 @@ struct Candidate {
 
   Identity identity = kUnknownIdentity;
   Kind kind = kAnyKind;
-  std::uint64_t last_image = 0;  ///< in which it was seen
-  std::uint64_t last_clone = 0;  ///< clones made by then
+  std::uint64_t last_image = 0;  ///< The last image that shows the landmark
+  std::uint64_t last_clone = 0;  ///< Number of clones made when the landmark was seen last
   std::array<Bearing, kMaxBearings> bearings{};
   std::size_t count = 0;
 
   std::span<const Bearing> seen() const { return {bearings.data(), count}; }
 };
 
-/// Delayed initialisation: keeps the bearings of unmapped landmarks together with clones of the poses they were taken
-/// from, until two of them meet in a point that a Gaussian describes (SPEC I.2 steps 4 to 7, I.4, I.8, I.9).
+/// Delayed initialisation: stores the bearings of unmapped landmarks, with clones of the poses they were taken from,
+/// until two of them intersect in a point that is well described by a Gaussian (mathematics I.2 steps 4 to 7, I.4, I.8,
+/// I.9).
 ///
 /// Thread contract: thread-bound; the storage is bounded and does not grow with the run.
 class Candidates {
@@ -46,23 +47,23 @@ class Candidates {
     Identity identity;
     Kind kind;
     Index block;
-    std::uint64_t sightings;  ///< bearings it was made from, those of the pair included
-    double relative_entropy;  ///< of the pair
-    double radius_px;         ///< of the newest bearing
+    std::uint64_t sightings;  ///< Number of bearings that made it, including the pair that intersects
+    double relative_entropy;  ///< Result of the quality test for the pair
+    double radius_px;         ///< Distance of the newest bearing from the image's centre
   };
 
-  /// The present image shows these unmapped landmarks. Adds to the state those with a well-conditioned pair, applies
-  /// their remaining bearings, drops clones no longer needed and clones the present pose if it is. The landmarks
-  /// added stand in created().
+  /// Processes the bearings of unmapped landmarks in the present image. Landmarks with a well-conditioned pair of
+  /// bearings are added to the state and to created(), and their remaining bearings are applied. Clones that are no
+  /// longer needed are dropped, and the present pose is cloned if it is needed.
   void observe(BearingEkf& ekf, std::span<const Bearing> unmapped);
   std::span<const Created> created() const { return created_; }
 
   std::span<const Candidate> candidates() const { return candidates_; }
-  /// A pose kept for its bearings.
+  /// A clone of a past pose, kept for the bearings taken from it.
   struct Clone {
     Index block = 0;
-    std::uint64_t image = 0;  ///< counts calls of observe(), from 0
-    int users = 0;            ///< bearings taken from it; 0: the slot is free
+    std::uint64_t image = 0;  ///< Number of the image, counting calls of observe() from 0
+    int users = 0;            ///< Number of bearings taken from this pose; 0: the slot is free
   };
   std::span<const Clone> clones() const { return clones_; }
   std::uint64_t images() const { return image_; }
@@ -72,7 +73,7 @@ class Candidates {
     std::size_t earlier;
     double relative_entropy;
     Intersection meeting;
-    double sigma_rad;  ///< of the less certain bearing
+    double sigma_rad;  ///< The larger of the standard deviations of the pair's bearings
   };
   using SeenBearing = azimuth::Bearing;
   Candidate& candidate_for(const SeenBearing& bearing);
@@ -95,7 +96,7 @@ class Candidates {
   std::vector<Candidate> candidates_;
   std::vector<Clone> clones_;
   std::vector<Created> created_;
-  std::vector<Candidate> initialised_;  // of the running image, with their remaining bearings
+  std::vector<Candidate> initialised_;  // landmarks added from the present image, with their remaining bearings
   std::vector<MappedSighting> remaining_;
 };
 

@@ -5,7 +5,8 @@
 namespace azimuth {
 namespace {
 
-constexpr int kTogether = 5;  // two bearings in one image say more than one that went to either of them
+// weight of two bearings in one image, against one image in which only one of the two was seen
+constexpr int kTogether = 5;
 
 }  // namespace
 
@@ -58,7 +59,7 @@ bool Duplicates::are_twins(const BearingEkf& ekf, const Point& a, const Point& b
          (ekf.state().position(a.block) - ekf.state().position(b.block)).norm() < settings_.within_m;
 }
 
-/// The twin seen most often, if it was more often than `of`; the older one of equals.
+/// The twin seen most often, if it was seen more often than `of`. Of twins seen equally often, the older one.
 const Duplicates::Point* Duplicates::better_twin(const BearingEkf& ekf, std::span<const Point> points,
                                                  const Point& of) const {
   const auto is_better = [](const Point& a, const Point& b) {

@@ -11,39 +11,39 @@
 
 namespace azimuth {
 
-/// Notices landmarks that were mapped twice, where bearings carry no names. A second entry comes about when the first
-/// one was predicted badly for a while. Afterwards both claim the same bearings: one is seen and the other is not,
-/// although it stands at the same place. Two things that do stand close together are seen both at once sooner or
-/// later.
+/// Finds landmarks that were mapped twice, where bearings carry no names. A second entry is made when the first one was
+/// predicted badly for a while. Afterwards both entries compete for the same bearings: at the same place, one is seen
+/// and the other is not. Two distinct landmarks that are close together are sooner or later both seen in one image.
 ///
-/// So each landmark counts the images in which a twin (one of its kind, and near) was seen instead of it, against those
-/// in which it was seen itself. What is seen in less than half of them is taken for its twin. Only landmarks whose kind
-/// is known have twins: where all are alike, what stands near is as likely to be another one.
+/// Each landmark therefore counts the images in which a twin (a near landmark of the same kind) was seen instead of it,
+/// minus the images in which it was seen itself. A landmark seen in less than half of these images is taken for a
+/// duplicate of its twin. Only landmarks of a known kind have twins: if all landmarks are alike, a near one is as
+/// likely to be a distinct landmark.
 ///
 /// Thread contract: thread-bound. The storage is bounded by the landmarks that have twins.
 class Duplicates {
  public:
   explicit Duplicates(const MergingSettings& settings) : settings_(settings) { missed_.reserve(kTypicalLandmarks); }
 
-  /// A landmark that is mapped as a point.
+  /// A landmark mapped as a point.
   struct Point {
     std::int64_t id;
     Kind kind;
     Index block;
-    std::uint64_t sightings;  ///< so far
-    bool seen;                ///< in the present image
+    std::uint64_t sightings;  ///< Number of bearings so far
+    bool seen;                ///< The present image shows it
   };
   struct Pair {
-    std::int64_t keep, drop;  ///< ids; the one seen more often is kept
-    bool agree;               ///< what is known of them adds up; else the one dropped was mapped wrongly
+    std::int64_t keep, drop;  ///< Identifiers; the landmark seen more often is kept
+    bool agree;               ///< The two estimates are compatible; otherwise the dropped one was mapped wrongly
   };
 
-  /// The landmarks after an image.
+  /// Counts the landmarks that were seen and missed in an image.
   void observe(const BearingEkf& ekf, std::span<const Point> points);
-  /// A pair of points that must be the same, if there is one.
+  /// A pair of points that must be the same landmark, if there is one.
   std::optional<Pair> find(const BearingEkf& ekf, std::span<const Point> points) const;
 
-  /// The landmark is not in the map any more.
+  /// To be called when a landmark is removed from the map.
   void forget(std::int64_t id) {
     std::erase_if(missed_, [id](const Missed& missed) { return missed.id == id; });
   }
@@ -51,7 +51,7 @@ class Duplicates {
  private:
   struct Missed {
     std::int64_t id;
-    int images;  ///< in which a twin was seen instead
+    int images;  ///< Images in which a twin was seen instead, minus those in which it was seen
   };
   int missed(std::int64_t id) const;
   void raise(std::int64_t id);
@@ -61,7 +61,7 @@ class Duplicates {
   void lower(std::int64_t id, int by);
 
   MergingSettings settings_;
-  std::vector<Missed> missed_;  // only of what has a twin, and not 0
+  std::vector<Missed> missed_;  // non-zero counts only, of landmarks that have twins
 };
 
 }  // namespace azimuth

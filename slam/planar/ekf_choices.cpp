@@ -9,15 +9,16 @@
 namespace azimuth {
 namespace {
 
-constexpr int kSightings = 3, kSightingsInImages = 8;  // until a landmark is believed to be one
-// Of an image in which features are told apart: how far their first images show a centre to be off is how far off the
-// distances are that they begin with, and where they are many these soon seem to know it (SPEC VI.37).
+constexpr int kSightings = 3, kSightingsInImages = 8;  // bearings until a landmark is confirmed
+// Prior of the image's centre for features. An error of the centre in their first images corresponds to an error of the
+// distances with which they are initialised; many such features soon seem to determine the centre (mathematics VI.37).
 constexpr double kCentreOfFeatures_px = 2.0;
 
-/// Not among features that are told apart: many that begin with wrong distances seem to tell it, as with the centre,
-/// and what is left of it does less harm than that (SPEC VI.34).
+/// Estimates the tilt as a state. Not for features: like the centre, the tilt would seem to be determined by many
+/// features that are initialised with wrong distances. Leaving the remaining tilt unestimated does less harm
+/// (mathematics VI.34).
 void estimate_tilt(const CameraRig& rig, BearingEkfSettings& filter) {
-  std::string ignored;  // of a rig that knows nothing of elevations
+  std::string ignored;  // the rig has no camera model with elevations
   const auto camera = camera_of(rig, ignored);
   if (!camera) return;
   filter.sigma_tilt_rad = sigma_tilt_rad(rig);
@@ -44,9 +45,9 @@ EkfSettings settings_for(const Rig& rig, EkfSettings settings) {
 Initialisation chosen_initialisation(const Rig& rig, const EkfSettings& settings) {
   if (settings.initialisation == Initialisation::undelayed || !names_landmarks(rig)) return Initialisation::undelayed;
   if (settings.initialisation == Initialisation::delayed) return Initialisation::delayed;
-  // The quality test compares parallax with the bearing's noise and is spoilt by the heading's. In a narrow view, or
-  // when a metre of odometry turns the heading by more than a bearing's error, it never passes (SPEC part V). Without
-  // identities bearings of an unmapped landmark cannot be told apart.
+  // The quality test compares parallax with the bearing's noise, and heading noise spoils it. In a narrow view, or when
+  // a metre of odometry turns the heading by more than a bearing's error, the test never passes (mathematics part V).
+  // Without identities, bearings of an unmapped landmark cannot be told apart.
   const bool all_round = rig.camera.field_of_view_rad > kPi;
   const double heading_variance_of_a_metre =
       rig.odometry.lambda_drift_rad2_per_m + rig.odometry.floor_rotation_rad * rig.odometry.floor_rotation_rad;
@@ -54,17 +55,16 @@ Initialisation chosen_initialisation(const Rig& rig, const EkfSettings& settings
   return all_round && steady ? Initialisation::delayed : Initialisation::undelayed;
 }
 
-/// A narrow view shows one or two landmarks at a time, which proves little: it takes a prediction within a tenth of a
-/// radian to believe that one is seen again. All round, the bearings of an image confirm each other; and in the first
-/// metres, when most is decided, an image shows two or three things that no image has shown before.
+/// A narrow view shows one or two landmarks at a time, which is weak evidence: only a prediction within a tenth of a
+/// radian counts as the same landmark. All round, the bearings of an image confirm each other. In the first metres,
+/// where most associations are decided, an image shows two or three new landmarks.
 double chosen_new_density_per_rad(const Rig& rig, const EkfSettings& settings) {
   if (settings.unnamed.new_density_per_rad > 0.0) return settings.unnamed.new_density_per_rad;
   if (rig.camera.field_of_view_rad <= kPi) return 4.0;
   return rig.front_end == FrontEnd::bearings ? 0.16 : 0.4;
 }
 
-BearingEkfSettings filter_settings(const Rig& rig, const EkfSettings& settings,
-                                   const std::optional<SecondBeginning>& again) {
+BearingEkfSettings filter_settings(const Rig& rig, const EkfSettings& settings, const std::optional<Restart>& again) {
   BearingEkfSettings filter;
   filter.retraction = settings.update.invariant ? JointState::Retraction::invariant : JointState::Retraction::additive;
   filter.max_iterations = settings.update.max_iterations;
@@ -75,8 +75,8 @@ BearingEkfSettings filter_settings(const Rig& rig, const EkfSettings& settings,
   filter.sigma_yaw_rad = settings.camera_yaw.sigma_rad;
   if (rig.front_end != FrontEnd::bearings) filter.sigma_centre_px = settings.centre.sigma_px;
   if (names_by_looks(rig)) filter.sigma_centre_px = std::min(filter.sigma_centre_px, kCentreOfFeatures_px);
-  // A mirror's centre takes up most of a tilt (SPEC VI.34), so that a second error like it is estimated only where the
-  // rig says how well it is known.
+  // For a mirror, the centre absorbs most of a tilt (mathematics VI.34). The tilt is therefore estimated only if the
+  // rig gives its standard deviation.
   if (rig.front_end != FrontEnd::bearings && !names_by_looks(rig) && rig.camera.sigma_tilt_rad)
     estimate_tilt(rig.camera, filter);
   filter.charge_curvature = settings.update.charge_curvature && rig.front_end != FrontEnd::bearings;

@@ -2,30 +2,30 @@
 #include <optional>
 
 #include "slam/ekf/bearing_ekf.hpp"
-#include "slam/estimator/begins_twice.hpp"
+#include "slam/estimator/restartable_estimator.hpp"
 #include "slam/estimator/rig.hpp"
 #include "slam/planar/ekf_settings.hpp"
 
 namespace azimuth {
 
-// What the planar EKF leaves to the rig. Thread contract: reentrant.
+// Settings of the planar EKF that depend on the rig. Thread contract: reentrant.
 
-/// Features are told apart by their looks.
+/// Whether features are told apart by their descriptors.
 bool names_by_looks(const Rig& rig);
-/// By the sensor or by their looks: else which bearing is of which landmark is found out by where they are.
+/// Whether landmarks have names, from the sensor or from descriptors. Otherwise data association goes by position.
 bool names_landmarks(const Rig& rig);
 
-/// With what follows from the rig, and what applies to features where there are some.
+/// Resolves the settings that depend on the rig, and applies the settings for features where the rig uses features.
 EkfSettings settings_for(const Rig& rig, EkfSettings settings);
 
-/// How a landmark enters the map: as the settings say, or as the rig allows.
+/// How landmarks are initialised: as the settings say, within what the rig allows.
 Initialisation chosen_initialisation(const Rig& rig, const EkfSettings& settings);
 
-/// How often a bearing is of something unmapped, per radian and bearing.
+/// Expected density of bearings of unmapped landmarks, per radian and bearing.
 double chosen_new_density_per_rad(const Rig& rig, const EkfSettings& settings);
 
-/// The filter itself; where it begins again, with what is known of the image's centre.
+/// Settings of the filter itself; `again` holds the known camera errors when the filter is started a second time.
 BearingEkfSettings filter_settings(const Rig& rig, const EkfSettings& settings,
-                                   const std::optional<SecondBeginning>& again = {});
+                                   const std::optional<Restart>& again = {});
 
 }  // namespace azimuth

@@ -12,35 +12,37 @@
 namespace azimuth {
 namespace {
 
-constexpr std::size_t kFewestToTest = 4;  // three bearings fit some pose whatever they are of
+constexpr std::size_t kFewestToTest = 4;  // three bearings fit some pose whatever their landmarks
 constexpr std::size_t kFewestToPlace = 4;
 
 }  // namespace
 
-EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings, const std::optional<SecondBeginning>& again)
+EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings, const std::optional<Restart>& again,
+                           const HealthSettings& health, const RelocalisationSettings& relocalisation)
     : EkfOnMap(rig, BearingEkf(filter_settings(rig, settings, again)),
-               PlanarMap(rig, settings, chosen_initialisation(rig, settings)), settings.health,
-               settings.relocalisation),
+               PlanarMap(rig, settings, chosen_initialisation(rig, settings)), health, relocalisation),
       settings_(settings),
       initialisation_(chosen_initialisation(rig, settings)),
       matcher_(settings, chosen_new_density_per_rad(rig, settings)),
-      search_(rig, settings) {
+      search_(rig, settings, relocalisation) {
   if (names_by_looks(rig)) names_.emplace(rig, settings);
   accepted_.reserve(kTypicalLandmarks);
 }
 
-EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings, const MapStart& start)
-    : EkfEstimator(rig, settings_for(rig, settings), std::optional<SecondBeginning>()) {
+EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings, const MapStart& start,
+                           const HealthSettings& health, const RelocalisationSettings& relocalisation)
+    : EkfEstimator(rig, settings_for(rig, settings), std::optional<Restart>(), health, relocalisation) {
   if (start.map != nullptr && is_worth_starting_from(start)) start_from(start);
 }
 
-EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings, const SecondBeginning& again)
-    : EkfEstimator(rig, settings_for(rig, settings), std::optional(again)) {
+EkfEstimator::EkfEstimator(const Rig& rig, const EkfSettings& settings, const Restart& again,
+                           const HealthSettings& health, const RelocalisationSettings& relocalisation)
+    : EkfEstimator(rig, settings_for(rig, settings), std::optional(again), health, relocalisation) {
   map_.continue_from(again.next_id);
 }
 
 void EkfEstimator::update(const BearingSet& bearings) {
-  hearing_.troubles.add(bearings.trouble, hearing_.path_m);
+  recognition_.troubles.add(bearings.trouble, recognition_.path_m);
   sightings_.clear();
   const BearingSet& image = names_ ? names_->name(bearings, landmarks(), candidates(), view(), searching()) : bearings;
   if (!searching() && lost_.notices(agreement(image))) begin_search();
@@ -56,8 +58,8 @@ void EkfEstimator::update(const BearingSet& bearings) {
 
 ImageAgreement EkfEstimator::agreement(const BearingSet& image) {
   const bool in_doubt = lost_.is_in_doubt();
-  return names_ ? search_.agreement_of_features(image, landmarks(), view(), hearing_.path_m, in_doubt)
-                : search_.agreement(image, landmarks(), view(), hearing_.path_m, in_doubt);
+  return names_ ? search_.agreement_of_features(image, landmarks(), view(), recognition_.path_m, in_doubt)
+                : search_.agreement(image, landmarks(), view(), recognition_.path_m, in_doubt);
 }
 
 const JointCompatibility& EkfEstimator::weigh(const BearingSet& bearings, double keep_log_ratio) {
@@ -80,7 +82,7 @@ const PlanarMatches& EkfEstimator::match(const BearingSet& image) {
   return matches;
 }
 
-/// Names make it possible to find the pose from one image alone (relocation.hpp).
+/// Named landmarks allow the pose to be found from a single image (relocation.hpp).
 bool EkfEstimator::relocate(const BearingSet& image, std::size_t rejected, std::size_t matched) {
   if (!has_names() || settings_.relocation.bearings <= 0) return false;
   if (!is_in_doubt(belief(), rejected, matched, settings_.relocation)) return false;
@@ -93,7 +95,7 @@ bool EkfEstimator::relocate(const BearingSet& image, std::size_t rejected, std::
   for (std::size_t i = 0; i < size; ++i) {
     Landmark& landmark = map_[seen.landmarks[i]];
     const MappedSighting& sighting = seen.sightings[i];
-    landmark.was_seen(sighting.radius_px, hearing_.path_m, image.stamp);
+    landmark.was_seen(sighting.radius_px, recognition_.path_m, image.stamp);
     sightings_.push_back({landmark.id, sighting.azimuth_rad, std::sqrt(sighting.variance_rad2), sighting.radius_px});
   }
   counts_.accepted += size;
@@ -111,7 +113,7 @@ void EkfEstimator::correct(std::span<const PlanarMatches::Pair> pairs, Stamp sta
     Landmark& landmark = map_[pair.landmark];
     const MappedSighting& sighting = pair.sighting;
     if (pair.accepted && applied) {
-      landmark.was_seen(sighting.radius_px, hearing_.path_m, stamp);
+      landmark.was_seen(sighting.radius_px, recognition_.path_m, stamp);
       ++counts_.accepted;
       sightings_.push_back({landmark.id, sighting.azimuth_rad, std::sqrt(sighting.variance_rad2), sighting.radius_px});
       if (landmark.is_point())
@@ -119,48 +121,49 @@ void EkfEstimator::correct(std::span<const PlanarMatches::Pair> pairs, Stamp sta
     } else {
       ++landmark.rejected_in_row;
       ++counts_.rejected;
-      ++hearing_.contradictions;
+      ++recognition_.contradictions;
       if (names_) names_->identities().refuse(landmark.identity);
     }
   }
-  if (!accepted_.empty() && applied) hearing_.agreed();
+  if (!accepted_.empty() && applied) recognition_.agreed();
 }
 
-/// A streak of rejections must not leave the filter deaf. When nothing at all is accepted the pose is wrong, and its
-/// covariance doubles until the map is heard again. When others are accepted the landmark is wrong, and starts anew.
+/// Ends a streak of rejections. If no bearing at all is accepted, the pose is wrong: its covariance is doubled until
+/// bearings agree with the map again. If other bearings are accepted, the landmark is wrong: it is removed, to be
+/// initialised again.
 void EkfEstimator::recover() {
   const int streak = settings_.recover_after_rejections;
   if (streak <= 0) return;
-  if (hearing_.contradictions >= streak) {
+  if (recognition_.contradictions >= streak) {
     ekf_.inflate_robot(ekf_.state().pose_covariance());
-    hearing_.contradictions = 0;
-    ++hearing_.deaf_streaks;
+    recognition_.contradictions = 0;
+    ++recognition_.inflations;
     ++counts_.recovered;
   }
-  if (maps() && hearing_.contradictions == 0 && hearing_.deaf_streaks == 0)
+  if (maps() && recognition_.contradictions == 0 && recognition_.inflations == 0)
     counts_.recovered += map_.remove_contradicted(ekf_, streak);
 }
 
 void EkfEstimator::extend_map(std::span<const Bearing> unmapped, Stamp stamp) {
-  const PlanarMap::Instant now{stamp, hearing_.path_m};
+  const PlanarMap::Instant now{stamp, recognition_.path_m};
   map_.tidy(ekf_, now);
   if (sees_enough()) {
     for (const Bearing& bearing : unmapped) names_->identities().refuse(bearing.identity);
   } else if (map_.add(ekf_, unmapped, now)) {
-    hearing_.recognised();
+    recognition_.recognised();
   }
   map_.promote_converged(ekf_);
-  if (names_) names_->identities().learn(hearing_.path_m);
+  if (names_) names_->identities().learn(recognition_.path_m);
 }
 
-/// Of features there are always more: a map needs not all of them, and each costs time in every later step.
+/// An image always shows more features than the map needs, and each one in the map costs time in every later step.
 bool EkfEstimator::sees_enough() const {
   const int enough = settings_.identity.enough_in_sight;
   return names_ && enough > 0 && static_cast<int>(sightings_.size()) >= enough;
 }
 
-/// The map is left as it is until the robot is found in it.
-void EkfEstimator::begin_search(const std::optional<Whereabouts>& within) {
+/// The map does not change until the robot is found.
+void EkfEstimator::begin_search(const std::optional<PositionPrior>& within) {
   lost_.begin_search(PlanarSearch::known(landmarks(), ekf_.state()), search_.camera_view(ekf_), within);
   ekf_.place_robot(ekf_.state().pose(), LostRobot::anywhere());
 }
@@ -170,8 +173,8 @@ void EkfEstimator::search(const BearingSet& image) {
   if (const auto found = lost_.look(search_.directions(image, landmarks(), ekf_))) settle_at(*found, image);
 }
 
-/// The pose becomes a function of what the last image shows, correlated with the map as it should be, when that image
-/// is enough for it.
+/// Sets the pose to the one found. If the last image suffices to compute a pose near the one found, the computed pose
+/// replaces it, with its correlation with the map.
 void EkfEstimator::settle_at(const PoseHypothesis& found, const BearingSet& image) {
   ekf_.place_robot(found.T_map_body, kDoubtfulFactor * found.covariance);
   const PlacedSightings& seen = matcher_.undisputed_points(image, landmarks(), view(), has_names());
@@ -189,15 +192,17 @@ void EkfEstimator::settle_at(const PoseHypothesis& found, const BearingSet& imag
 void EkfEstimator::was_found() {
   lost_.was_found();
   search_.forget_images();
-  hearing_.agreed();
+  recognition_.agreed();
 }
 
-std::unique_ptr<Estimator> make_ekf_estimator(const Rig& rig, const EkfSettings& settings, const MapStart& start) {
+std::unique_ptr<Estimator> make_ekf_estimator(const Rig& rig, const EkfSettings& settings, const MapStart& start,
+                                              const HealthSettings& health,
+                                              const RelocalisationSettings& relocalisation) {
   if (start.map != nullptr || rig.front_end != FrontEnd::colour)
-    return std::make_unique<EkfEstimator>(rig, settings, start);
-  auto begin = [=](const std::optional<SecondBeginning>& again) -> std::unique_ptr<BeginsTwice> {
-    auto filter =
-        again ? std::make_unique<EkfEstimator>(rig, settings, *again) : std::make_unique<EkfEstimator>(rig, settings);
+    return std::make_unique<EkfEstimator>(rig, settings, start, health, relocalisation);
+  auto begin = [=](const std::optional<Restart>& again) -> std::unique_ptr<RestartableEstimator> {
+    auto filter = again ? std::make_unique<EkfEstimator>(rig, settings, *again, health, relocalisation)
+                        : std::make_unique<EkfEstimator>(rig, settings, MapStart{}, health, relocalisation);
     if (names_landmarks(rig) || settings.unnamed.start_hypotheses < 2) return filter;
     return std::make_unique<EkfHypotheses>(std::move(filter), settings.unnamed.start_hypotheses);
   };

@@ -16,30 +16,33 @@
 
 namespace azimuth {
 
-/// Bearing-only EKF SLAM (SPEC part I): one joint filter over pose and landmarks, with delayed or undelayed
-/// initialisation, known or unknown identities, gates, and recovery from streaks of rejections.
+/// Bearing-only EKF SLAM (mathematics part I): one joint filter over pose and landmarks, with delayed or undelayed
+/// initialisation, known or unknown identities, gates, and re-initialisation after streaks of rejections.
 ///
-/// A robot that is not where it should be (carried away, or begun from a map without knowing the pose) is searched for:
-/// what images show changes nothing until they say where it is. On a map too small for that it begins without.
+/// When the robot is not where the filter believes (it was carried away, or started on a map with an unknown pose), a
+/// search on the map starts. During the search images change neither map nor pose until they determine the pose. If a
+/// saved map is too small for a search, the filter starts with an empty map.
 ///
 /// Thread contract: thread-bound.
 class EkfEstimator final : public EkfOnMap<BearingEkf, PlanarMap> {
  public:
-  /// A map to start from must be none of which why_unfit() says anything.
-  EkfEstimator(const Rig& rig, const EkfSettings& settings, const MapStart& start = {});
-  EkfEstimator(const Rig& rig, const EkfSettings& settings, const SecondBeginning& again);
+  /// A map to start from must have passed why_unfit_for_ekf().
+  EkfEstimator(const Rig& rig, const EkfSettings& settings, const MapStart& start = {},
+               const HealthSettings& health = {}, const RelocalisationSettings& relocalisation = {});
+  EkfEstimator(const Rig& rig, const EkfSettings& settings, const Restart& again, const HealthSettings& health = {},
+               const RelocalisationSettings& relocalisation = {});
 
   void update(const BearingSet& bearings) override;
   void estimate(Estimate& out) const override;
   void expect(std::vector<ExpectedBearing>& out) const override;
   bool save_map(MapSnapshot& out) const override;
 
-  /// The joint hypotheses of what these bearings without names are of, those far less likely than the best left out:
-  /// for update_as(), until anything else is called.
+  /// Computes the joint association hypotheses for these unnamed bearings, leaving out those far less likely than the
+  /// best. They are valid for update_as(), until another function is called.
   const JointCompatibility& weigh(const BearingSet& bearings, double keep_log_ratio);
-  /// update() by one of them.
+  /// update() with one of these hypotheses.
   void update_as(const BearingSet& bearings, std::size_t hypothesis);
-  /// Landmarks begun from now on have ids from `next_id` on.
+  /// New landmarks get identifiers from `next_id` on.
   void continue_from(std::int64_t next_id) { map_.continue_from(next_id); }
 
   using Landmark = PlanarLandmark;
@@ -49,21 +52,22 @@ class EkfEstimator final : public EkfOnMap<BearingEkf, PlanarMap> {
   Initialisation initialisation() const { return initialisation_; }
 
  private:
-  /// `settings` are those of settings_for().
-  EkfEstimator(const Rig& rig, const EkfSettings& settings, const std::optional<SecondBeginning>& again);
+  /// `settings` must come from settings_for().
+  EkfEstimator(const Rig& rig, const EkfSettings& settings, const std::optional<Restart>& again,
+               const HealthSettings& health, const RelocalisationSettings& relocalisation);
 
-  // How it begins (ekf_beginning.cpp).
+  // Start (ekf_start.cpp).
   bool is_searchable(std::span<const MapLandmark> landmarks) const;
   bool is_worth_starting_from(const MapStart& start) const;
   void start_from(const MapStart& start);
   void begin_at(const StartPose& pose) override;
   void begin_from_nothing();
 
-  // The steps of an update.
+  // Steps of an update.
   PlanarView view() const { return {ekf_, rig_.camera, search_.reach_m()}; }
   bool has_names() const { return names_landmarks(rig_); }
-  /// Landmarks may come, go and be corrected.
-  bool maps() const { return beginning_.extends() && !searching(); }
+  /// Whether landmarks may be added, removed and corrected.
+  bool maps() const { return start_decision_.extends() && !searching(); }
   ImageAgreement agreement(const BearingSet& image);
   const PlanarMatches& match(const BearingSet& image);
   bool relocate(const BearingSet& image, std::size_t rejected, std::size_t matched);
@@ -71,12 +75,12 @@ class EkfEstimator final : public EkfOnMap<BearingEkf, PlanarMap> {
   void recover();
   void extend_map(std::span<const Bearing> unmapped, Stamp stamp);
   bool sees_enough() const;
-  void begin_search(const std::optional<Whereabouts>& within = {});
+  void begin_search(const std::optional<PositionPrior>& within = {});
   void search(const BearingSet& image);
   void settle_at(const PoseHypothesis& found, const BearingSet& image);
   void was_found();
 
-  // What it says.
+  // Output (ekf_output.cpp).
   Judgement judged_with_map(Evidence heard) const override;
   bool may_take_one_for_another() const;
   LandmarkEstimate estimate_of(const Landmark& landmark) const;
@@ -86,10 +90,10 @@ class EkfEstimator final : public EkfOnMap<BearingEkf, PlanarMap> {
   Initialisation initialisation_;
   PlanarMatcher matcher_;
   PlanarSearch search_;
-  std::optional<FeatureNames> names_;      ///< where looks stand in for the sensor's
-  bool may_search_ = false;                ///< on the map that it began from
-  std::optional<std::size_t> hypothesis_;  ///< of those weighed, that the running update goes by
-  std::vector<MappedSighting> accepted_;   ///< of the running update
+  std::optional<FeatureNames> names_;      ///< Set if descriptors replace the sensor's names
+  bool may_search_ = false;                ///< The map it started from can be searched
+  std::optional<std::size_t> hypothesis_;  ///< The weighed hypothesis that the running update uses
+  std::vector<MappedSighting> accepted_;   ///< Bearings used by the running update
 };
 
 }  // namespace azimuth

@@ -11,9 +11,9 @@
 namespace azimuth {
 namespace {
 
-constexpr double kImplausible = 7.0;  // a thousand times less likely than the likeliest
+constexpr double kImplausible = 7.0;  // log likelihood ratio: a thousand times less likely than the best
 
-/// Counts never go back, whichever hypothesis is the likeliest.
+/// Published counts must never decrease, whichever hypothesis is the best.
 void raise(std::uint64_t own, std::uint64_t counted, std::uint64_t& ahead) {
   ahead = std::max(ahead, counted - std::min(counted, own));
 }
@@ -56,7 +56,7 @@ void EkfHypotheses::choose(const BearingSet& bearings) {
   if (choices_.size() > most_) choices_.resize(most_);
 }
 
-/// Landmarks that two filters begin in this image are two things, so they have two ids.
+/// Landmarks that two filters initialise in this image are distinct, so they get distinct ids.
 void EkfHypotheses::follow(const BearingSet& bearings) {
   std::int64_t id = 0;
   for (const Branch& branch : branches_) id = std::max(id, branch.filter->next_id());
@@ -84,7 +84,7 @@ void EkfHypotheses::count_on() {
   raise(own.recovered, counted_.recovered, ahead_.recovered);
   raise(own.created, counted_.created, ahead_.created);
   raise(own.deleted, counted_.deleted, ahead_.deleted);
-  // What is mapped is what was created and not deleted.
+  // The number of mapped landmarks is `created` minus `deleted`.
   ahead_.created = ahead_.deleted = std::max(ahead_.created, ahead_.deleted);
   counted_ = counts();
 }
@@ -100,7 +100,7 @@ AssociationCounts EkfHypotheses::counts() const {
           .recovered = own.recovered + ahead_.recovered};
 }
 
-/// The second moment of a mixture about the likeliest pose.
+/// The second moment of the mixture about the most likely pose.
 template <typename Write>
 void EkfHypotheses::widen(Estimate& out, const Write& write) const {
   out.association = counts();

@@ -5,25 +5,25 @@
 #include <optional>
 #include <vector>
 
-#include "slam/estimator/begins_twice.hpp"
+#include "slam/estimator/restartable_estimator.hpp"
 #include "slam/planar/ekf_estimator.hpp"
 
 namespace azimuth {
 
-/// The first metres of an EKF whose bearings have no names. What a bearing is of is decided from poses and landmarks
-/// that are vague then, and a wrong decision stays in the map, so it is put off: the likeliest joint hypotheses of an
-/// image are followed side by side, each by a filter of its own, and ranked by the likelihood of all images so far.
-/// After kUndecided_m the likeliest one goes on alone.
+/// Multi-hypothesis EKF for the first metres of a drive whose bearings have no names. Poses and landmarks are uncertain
+/// then, and a wrong association stays in the map, so the decision is delayed: the most likely joint association
+/// hypotheses of an image are followed in parallel, each by its own filter, and ranked by the likelihood of all images
+/// so far. After kUndecided_m of driving only the most likely filter continues.
 ///
-/// Until then the pose is that of the likeliest one, with a covariance that has the others' poses in it as far as they
-/// are likely. A robot that stands still learns nothing that could tell them apart.
+/// Until then the pose is that of the most likely filter. Its covariance includes the other filters' poses, weighted by
+/// likelihood. Images taken while the robot stands still do not create hypotheses, since they cannot tell them apart.
 ///
-/// Thread contract: thread-bound. No call allocates once one goes on alone and its map has stopped growing.
-class EkfHypotheses final : public BeginsTwice {
+/// Thread contract: thread-bound. No call allocates once only one filter is left and its map has stopped growing.
+class EkfHypotheses final : public RestartableEstimator {
  public:
-  static constexpr double kUndecided_m = 5.0;  ///< driven
+  static constexpr double kUndecided_m = 5.0;  ///< Distance driven
 
-  /// Follows `most` at once, at least 1.
+  /// Follows up to `most` hypotheses at once; at least 1.
   EkfHypotheses(std::unique_ptr<EkfEstimator> first, int most);
 
   bool odometry_begins(bool goes_on) override { return best().odometry_begins(goes_on); }
@@ -47,7 +47,7 @@ class EkfHypotheses final : public BeginsTwice {
  private:
   struct Branch {
     std::unique_ptr<EkfEstimator> filter;
-    double log_likelihood = 0.0;  ///< of all images, from that of the likeliest
+    double log_likelihood = 0.0;  ///< Likelihood of all images, relative to the most likely branch
     std::int64_t ids_skipped = 0;
   };
   struct Choice {
@@ -62,11 +62,11 @@ class EkfHypotheses final : public BeginsTwice {
   void widen(Estimate& out, const Write& write) const;
 
   std::size_t most_;
-  std::vector<Branch> branches_, next_;  // the likeliest first
+  std::vector<Branch> branches_, next_;  // most likely first
   std::vector<Choice> choices_;
   double path_m_ = 0.0;
-  bool moved_ = true;                  // since the last image
-  AssociationCounts counted_, ahead_;  // published last; by how much the likeliest filter's own are short of that
+  bool moved_ = true;                  // the robot moved since the last image
+  AssociationCounts counted_, ahead_;  // counts published last, and how far the best filter's own counts are below them
 };
 
 }  // namespace azimuth

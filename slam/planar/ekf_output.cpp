@@ -1,4 +1,4 @@
-// EkfEstimator: what it says of robot and map.
+// EkfEstimator: output of robot and map.
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 namespace azimuth {
 namespace {
 
-constexpr double kUngatedSigmas = 3.0;  // shown where nothing is gated
+constexpr double kUngatedSigmas = 3.0;  // gate to display where no gate is set
 
 }  // namespace
 
@@ -23,7 +23,8 @@ LandmarkEstimate EkfEstimator::estimate_of(const Landmark& landmark) const {
   const JointState& state = ekf_.state();
   LandmarkEstimate out;
   out.id = landmark.id;
-  out.identity = names_ ? kUnknownIdentity : landmark.identity;  // ours are no sensor's names
+  // identities assigned by FeatureNames are not the sensor's names
+  out.identity = names_ ? kUnknownIdentity : landmark.identity;
   if (landmark.is_point()) {
     out.p_map_landmark_m = state.position(landmark.block);
     out.covariance_m2 = state.position_covariance(landmark.block) + covariance_by_considered<2>(state, landmark.block);
@@ -39,19 +40,19 @@ LandmarkEstimate EkfEstimator::estimate_of(const Landmark& landmark) const {
 Judgement EkfEstimator::judged_with_map(Evidence heard) const {
   heard.landmarks = map_.size();
   heard.max_landmarks = as_size(settings_.max_landmarks);
-  const Judgement judgement = judge(heard, settings_.health);
+  const Judgement judgement = judge(heard, health_);
   if (judgement.health != Health::tracking || !may_take_one_for_another()) return judgement;
   return {Health::degraded, "landmarks without names may be taken for each other, which is not noticed"};
 }
 
-/// Where nothing tells landmarks apart but where they are, a wrong pair makes the next one more likely: the filter goes
-/// wrong and agrees with itself.
+/// Where position alone tells landmarks apart, a wrong association makes the next one more likely: the filter diverges
+/// while its bearings agree with its map.
 bool EkfEstimator::may_take_one_for_another() const {
   return !has_names() &&
          std::ranges::all_of(landmarks(), [](const Landmark& landmark) { return landmark.kind == kAnyKind; });
 }
 
-/// The innovation's gate is by S = H P H^T + R (SPEC I.6, I.7).
+/// The gate is that of the innovation, S = H P H^T + R (mathematics I.6, I.7).
 void EkfEstimator::expect(std::vector<ExpectedBearing>& out) const {
   const double sigmas = settings_.gates.chi2 > 0.0 ? std::sqrt(settings_.gates.chi2) : kUngatedSigmas;
   out.clear();

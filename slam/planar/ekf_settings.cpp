@@ -16,7 +16,6 @@ EkfSettings paper_preset() {
   settings.gates.joint_probability = 0.0;
   settings.recover_after_rejections = 0;
   settings.relocation.bearings = 0;
-  settings.relocalisation.lost_log_odds = 0.0;
   settings.merging.after_images = 0;
   settings.centre.sigma_px = 0.0;
   settings.centre.second_start_px = 0.0;

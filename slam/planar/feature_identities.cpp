@@ -11,7 +11,7 @@
 namespace azimuth {
 namespace {
 
-constexpr double kNowhere = -1.0;  // half the width of no direction at all
+constexpr double kNowhere = -1.0;  // half width of an empty interval
 
 DescriptorStoreSettings store_settings(const IdentitySettings& settings, double max_viewing_distance_m) {
   DescriptorStoreSettings store;
@@ -65,9 +65,9 @@ void FeatureIdentities::look_up(const IdentityBeliefs& beliefs) {
   store_.find_within(image_.descriptors, azimuths_rad_, within_, p_map_camera_m_, found_);
 }
 
-/// Where each landmark that the filter knows can be seen, for the least certain bearing of the image: judge() decides
-/// by each bearing's own noise. Of what is not in the map yet each earlier bearing says so, and the one that allows
-/// least is taken.
+/// Lists the directions in which each known landmark can be seen, using the largest noise of the image's bearings;
+/// judge() then applies each bearing's own noise. A landmark that is not in the map yet has one interval per earlier
+/// bearing, of which the narrowest is used.
 void FeatureIdentities::list_within(const IdentityBeliefs& beliefs) {
   double worst_rad2 = 0.0;
   for (const Bearing& bearing : image_.bearings) worst_rad2 = std::max(worst_rad2, variance_rad2(bearing));
@@ -96,7 +96,7 @@ void FeatureIdentities::list_within(const IdentityBeliefs& beliefs) {
   std::ranges::sort(within_, std::less{}, &SightedWithin::identity);
 }
 
-/// The decision tree of SPEC I.12.
+/// Decision tree of mathematics I.12.
 FeatureIdentities::Verdict FeatureIdentities::judge(std::size_t at, const IdentityBeliefs& beliefs) {
   const auto fresh = [](std::uint64_t& reason) {
     ++reason;
@@ -125,7 +125,7 @@ FeatureIdentities::Verdict FeatureIdentities::judge(std::size_t at, const Identi
   return fresh(counts_.replaced);
 }
 
-/// Whether another feature of the image looks more like the same landmark; of equals the first one is it.
+/// Whether another feature of the image matches the same landmark better; of equally good features the first one wins.
 bool FeatureIdentities::is_outdone(std::size_t at) const {
   const NearestTwo::View& mine = found_[at].nearest;
   for (std::size_t other = 0; other < found_.size(); ++other) {
@@ -172,8 +172,8 @@ double FeatureIdentities::sigma_rad(const Bearing& bearing) const {
   return std::max(own_rad, settings_.min_sigma_rad);
 }
 
-/// What is wrong with an image as a whole (its stamp, the mirror's shape, the filter's linearisation) is wrong with all
-/// its bearings and does not average out: beyond a few, more of them say no more.
+/// Inflates the noise of bearings in an image with many recognised features. An error of the whole image (its stamp,
+/// the mirror's shape, the filter's linearisation) affects all its bearings and does not average out.
 void FeatureIdentities::spread_noise(double recognised) {
   const int independent = settings_.independent_bearings;
   const double factor = independent > 0 ? std::sqrt(std::max(1.0, recognised / independent)) : 1.0;

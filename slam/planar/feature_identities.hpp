@@ -10,41 +10,43 @@
 
 namespace azimuth {
 
-/// Names for features that are known by their looks alone (SPEC I.12): which of an image's features is which landmark
-/// seen before, and which is new.
+/// Assigns identities to features by their descriptors (mathematics I.12): decides which features of an image show
+/// landmarks seen before, and which are new.
 ///
-/// Thread contract: thread-bound. Nothing allocates once the store is full and no image is larger than before. Same
-/// calls, same names.
+/// Thread contract: thread-bound. Nothing allocates once the store is full and no image is larger than any before. The
+/// same calls give the same identities.
 class FeatureIdentities {
  public:
-  /// `sigma_bearing_rad` is that of bearings that do not say their own.
+  /// `sigma_bearing_rad` is used for bearings that carry no sigma of their own.
   FeatureIdentities(const IdentitySettings& settings, double sigma_bearing_rad, double max_viewing_distance_m);
 
-  /// The image with an identity for each bearing: that of a landmark seen before, or one never given before. A name
-  /// stands on one bearing only. Valid until the next call. Without a descriptor for each bearing all stay unknown.
+  /// Returns the image with an identity for each bearing: that of a landmark seen before, or an unused one. Each
+  /// identity occurs on one bearing only. The result is valid until the next call. Unless there is a descriptor for
+  /// each bearing, all identities stay unknown.
   const BearingSet& name(const BearingSet& image, const IdentityBeliefs& beliefs);
 
-  /// The filter did not believe that the image shows this landmark: its looks there are not to be learnt.
+  /// The filter rejected the bearing of this landmark in the image, so learn() must skip the descriptor of that
+  /// bearing.
   void refuse(Identity identity);
 
-  /// Learns the looks of what the image shows, taken after `path_m` of driving.
+  /// Learns the descriptors of the image, which was taken after `path_m` of driving.
   void learn(double path_m);
 
   const DescriptorStore& store() const { return store_; }
 
-  /// Names of this one and above have never been given.
+  /// No identity from this one on has been assigned.
   Identity next() const { return next_; }
-  /// Begins with what another map's landmarks looked like; to be called before anything else.
+  /// Starts with the descriptors of a saved map's landmarks; to be called before anything else.
   void restore(std::span<const MapView> views, Identity next);
 
-  /// What became of the features so far.
+  /// Outcome of the features so far.
   struct Counts {
-    std::uint64_t mapped = 0;        ///< recognised as a landmark in the map
-    std::uint64_t sighted = 0;       ///< as one that is not in it yet
-    std::uint64_t unlike = 0;        ///< new: unlike anything, or like two things
-    std::uint64_t contradicted = 0;  ///< new: geometry or surroundings spoke against what it looks like
-    std::uint64_t outdone = 0;       ///< new: another feature looks more like it
-    std::uint64_t replaced = 0;      ///< new: what it looks like had been given up
+    std::uint64_t mapped = 0;        ///< Recognised as a landmark in the map
+    std::uint64_t sighted = 0;       ///< Recognised as a landmark that is not in the map yet
+    std::uint64_t unlike = 0;        ///< New: matches no view, or two landmarks equally well
+    std::uint64_t contradicted = 0;  ///< New: geometry or neighbouring features contradict the match
+    std::uint64_t outdone = 0;       ///< New: another feature of the image matches the same landmark better
+    std::uint64_t replaced = 0;      ///< New: the matching landmark has been given up
   };
   const Counts& counts() const { return counts_; }
 
@@ -69,7 +71,7 @@ class FeatureIdentities {
   Identity next_ = 0;
   Counts counts_;
 
-  // Of the running image.
+  // State of the running image.
   BearingSet image_;
   Eigen::Vector2d p_map_camera_m_ = Eigen::Vector2d::Zero();
   std::vector<double> azimuths_rad_;

@@ -8,7 +8,7 @@
 
 namespace azimuth {
 
-/// Names for features, by their looks and by what the planar filter believes of where they are.
+/// Assigns identities to features by descriptors and by the planar filter's belief of where landmarks are.
 ///
 /// Thread contract: thread-bound.
 class FeatureNames {
@@ -16,8 +16,8 @@ class FeatureNames {
   FeatureNames(const Rig& rig, const EkfSettings& settings)
       : identities_(settings.identity, rig.camera.sigma_bearing_rad, settings.max_viewing_distance_m) {}
 
-  /// The image with a name for each bearing; see FeatureIdentities::name(). While the pose is a guess only looks say
-  /// what is seen.
+  /// The image with an identity for each bearing; see FeatureIdentities::name(). While the pose is a guess only
+  /// descriptors decide.
   const BearingSet& name(const BearingSet& image, std::span<const PlanarLandmark> landmarks,
                          const Candidates& candidates, const PlanarView& view, bool pose_is_a_guess);
 

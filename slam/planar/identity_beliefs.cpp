@@ -7,7 +7,7 @@
 namespace azimuth {
 namespace {
 
-/// Of the difference between the robot's heading and a clone's.
+/// Variance of the difference between the robot's heading and a clone's.
 double turn_variance_rad2(const JointState& state, Index clone) {
   const Index then = clone + 2, now = JointState::kPose + 2;
   return state.covariance(then, then) + state.covariance(now, now) - 2.0 * state.covariance(then, now);

@@ -13,7 +13,7 @@ IdentitySettings paper_identity_preset() {
   settings.independent_bearings = 0;
   settings.enough_in_sight = 0;
   settings.min_observations = 2;
-  // The descriptors of all images, for good: as many as there is room for.
+  // Keep the descriptors of all images, as far as there is room.
   settings.views_per_identity = 1000;
   settings.view_spacing_m = 0.0;
   settings.stable_sightings = 1;

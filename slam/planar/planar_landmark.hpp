@@ -6,20 +6,20 @@
 
 namespace azimuth {
 
-/// What the planar filter knows of a landmark beside its state.
+/// The planar filter's bookkeeping for a landmark, apart from its state.
 struct PlanarLandmark {
   std::int64_t id = 0;
   Identity identity = kUnknownIdentity;
   Kind kind = kAnyKind;
   BlockKind block_kind = BlockKind::point;
   Index block = 0;
-  std::uint64_t sightings = 0;  ///< bearings accepted
-  int rejected_in_row = 0;      ///< since the last accepted one
-  double last_used_m = 0.0;     ///< path driven by then
+  std::uint64_t sightings = 0;  ///< Bearings accepted
+  int rejected_in_row = 0;      ///< Bearings rejected since the last accepted one
+  double last_used_m = 0.0;     ///< Path driven when the landmark was last seen
   Stamp last_used{};
-  double radius_px = BearingEkf::kNoRadius;  ///< of the last bearing accepted
-  bool recalled = false;                     ///< from a saved map, and not seen since the start
-  bool confirmed = false;                    ///< believed to be there: others hear of it
+  double radius_px = BearingEkf::kNoRadius;  ///< Distance of the last accepted bearing from the image's centre
+  bool recalled = false;                     ///< Loaded from a saved map, and not seen since the start
+  bool confirmed = false;                    ///< Past probation: published and saved
 
   bool is_point() const { return block_kind == BlockKind::point; }
 

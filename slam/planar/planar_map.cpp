@@ -9,7 +9,7 @@
 namespace azimuth {
 namespace {
 
-// Before every stamp, and far enough from their limits to reckon with.
+// Earlier than every stamp, and far enough from the limits for differences not to overflow.
 constexpr Stamp kLongAgo = stamp_from_us(std::numeric_limits<std::int64_t>::min() / 4);
 
 }  // namespace
@@ -46,7 +46,8 @@ void PlanarMap::forget_everything(BearingEkf& ekf) {
 void PlanarMap::tidy(BearingEkf& ekf, const Instant& now) {
   if (has_names()) return;
   confirm();
-  // In a narrow view one of two that stand close together is often seen alone, which says nothing.
+  // In a narrow view one of two near landmarks is often seen alone, so this does not show that the other is a
+  // duplicate.
   if (rig_.camera.field_of_view_rad > kPi) merge_duplicates(ekf, now.stamp);
   drop_on_probation(ekf, now.path_m);
 }
@@ -86,7 +87,7 @@ void PlanarMap::merge(BearingEkf& ekf, const Duplicates::Pair& pair) {
   forget(dropped);
 }
 
-/// Clutter: what was seen once or twice and never again.
+/// Removes clutter: landmarks seen once or twice and never again.
 void PlanarMap::drop_on_probation(BearingEkf& ekf, double path_m) {
   for (std::size_t i = book_.size(); i-- > 0;)
     if (!is_seen_often(book_[i]) && path_m - book_[i].last_used_m > settings_.probation.drop_after_m) remove(ekf, i);

@@ -15,7 +15,7 @@
 
 namespace azimuth {
 
-/// The planar filter's landmarks: how they come into its state, are told from clutter and from each other, and go.
+/// The planar filter's landmarks: initialisation, probation, merging of duplicates, and removal.
 ///
 /// Thread contract: thread-bound.
 class PlanarMap {
@@ -29,35 +29,35 @@ class PlanarMap {
   const PlanarLandmark& operator[](std::size_t at) const { return book_[at]; }
   std::int64_t next_id() const { return book_.next_id(); }
   void continue_from(std::int64_t next_id) { book_.continue_from(next_id); }
-  std::uint64_t created() const { return created_; }  ///< confirmed, rather: nobody hears of the others
+  std::uint64_t created() const { return created_; }  ///< Confirmed landmarks only, since others are not published
   std::uint64_t deleted() const { return deleted_; }
   const Candidates& candidates() const { return candidates_; }
 
-  /// Takes over a saved map's landmarks, which stand in the filter's `blocks`.
+  /// Takes over a saved map's landmarks, which are in the filter's `blocks`.
   void restore(const MapSnapshot& map, std::span<const Index> blocks);
-  /// As if there had never been a map.
+  /// Empties the map, counts included.
   void forget_everything(BearingEkf& ekf);
 
-  /// When and where an image was taken.
+  /// Time and path length at which an image was taken.
   struct Instant {
     Stamp stamp;
-    double path_m;  ///< driven by then
+    double path_m;  ///< Distance driven by then
   };
-  /// After an image: what was seen often enough is confirmed, what is mapped twice becomes one, and clutter goes, where
-  /// there are no names.
+  /// Maintenance after an image, where landmarks have no names: confirms landmarks seen often enough, merges duplicates
+  /// and removes clutter.
   void tidy(BearingEkf& ekf, const Instant& now);
-  /// Begins landmarks of what the image shows that is not mapped, or keeps it until they can be begun, as long as there
-  /// is room. True: there are new ones.
+  /// Initialises landmarks from bearings of unmapped landmarks, or stores the bearings until that is possible, as long
+  /// as there is room. Returns true when there are new landmarks.
   bool add(BearingEkf& ekf, std::span<const Bearing> unmapped, const Instant& now);
-  /// Rays that a point describes as well become points.
+  /// Converts inverse-depth landmarks to points where a point describes them as well.
   void promote_converged(BearingEkf& ekf);
 
-  /// Takes out what was rejected so many times in a row. Returns how many.
+  /// Removes landmarks that were rejected this many times in a row. Returns their number.
   std::size_t remove_contradicted(BearingEkf& ekf, int rejected_in_row);
 
  private:
   bool has_names() const { return names_landmarks(rig_); }
-  /// A name is no clutter, and what ready-made bearings are of, others have judged.
+  /// Named landmarks are no clutter. Ready-made bearings count as checked by their source.
   bool starts_confirmed() const { return has_names() || rig_.front_end == FrontEnd::bearings; }
   bool is_seen_often(const PlanarLandmark& landmark) const;
   void confirm();
@@ -77,7 +77,7 @@ class PlanarMap {
   Candidates candidates_;
   Duplicates duplicates_;
   std::uint64_t created_ = 0, deleted_ = 0;
-  std::vector<Duplicates::Point> points_;  ///< of the running image
+  std::vector<Duplicates::Point> points_;  ///< Points in the running image
 };
 
 }  // namespace azimuth

@@ -14,11 +14,11 @@ namespace {
 constexpr double kUngated = 1e9, kUngatedProbability = 0.9999;
 constexpr double kUndisputed_sigmas = 3.0;
 constexpr double kJolt_chi2 = 36.0, kJoltProbability = 0.999999;
-constexpr std::uint64_t kConfirmed = 3;  // sightings of what should be seen again
+constexpr std::uint64_t kConfirmed = 3;  // bearings of a landmark that should be seen again
 constexpr int kNodesOfMany = 500;
 constexpr std::size_t kBeamOfMany = 64;
 
-/// An earlier bearing of the image has the same name.
+/// Whether an earlier bearing of the image has the same name.
 bool repeats_a_name(const Bearing& bearing, const BearingSet& image) {
   return &*std::ranges::find(image.bearings, bearing.identity, &Bearing::identity) != &bearing;
 }
@@ -85,8 +85,8 @@ const PlanarMatches& PlanarMatcher::match_weighed(const BearingSet& image, Landm
   return matches_of_pairings(image, landmarks, view);
 }
 
-/// An image of a robot that turned by more than it should have shows nothing where it should be, although all of it is
-/// off by the same angle. It is looked at once more with gates that let that pass.
+/// When the robot turned farther than odometry said, no landmark is where it should be in the image, although all are
+/// off by the same angle. Such an image is associated again with wider gates.
 void PlanarMatcher::associate(const BearingSet& image, Landmarks landmarks, const PlanarView& view,
                               const JointGates& gates) {
   begin(image, view);
@@ -106,7 +106,8 @@ void PlanarMatcher::associate_within(Landmarks landmarks, const PlanarView& view
   association_.associate(measured_, predicted, gates, pairings_);
 }
 
-/// Fewer than half of what can be: either every bearing is of something that was just seen, or all of that is seen.
+/// Whether fewer than half of the bearings that landmarks could explain are explained. Landmarks could explain as many
+/// bearings as the smaller of two numbers: that of the bearings and that of the landmarks just seen.
 bool PlanarMatcher::shows_other_things(const BearingSet& image, Landmarks landmarks) const {
   const auto confirmed = [](const PlanarLandmark& landmark) {
     return landmark.is_point() && landmark.sightings >= kConfirmed;
@@ -180,7 +181,8 @@ void PlanarMatcher::begin(const BearingSet& image, const PlanarView& view) {
     measured_.push_back({bearing.azimuth_rad, view.variance_rad2(bearing), bearing.kind});
 }
 
-/// The landmarks within gate of some measured azimuth, with the joint covariance of their predicted azimuths.
+/// Collects the landmarks within the gate of some measured azimuth, with the joint covariance of their predicted
+/// azimuths.
 void PlanarMatcher::predict_visible(Landmarks landmarks, const PlanarView& view, double gate_chi2) {
   visible_.clear();
   visible_azimuths_rad_.clear();

@@ -11,21 +11,21 @@
 
 namespace azimuth {
 
-/// What the bearings of an image are of.
+/// The association of an image's bearings with landmarks.
 struct PlanarMatches {
   /// A bearing paired with a mapped landmark.
   struct Pair {
     std::size_t landmark;
     MappedSighting sighting;
     ObservationRow row;
-    double variance_rad2;  ///< S = H P H^T + R
-    bool accepted = true;  ///< by its own gate and by the joint one
+    double variance_rad2;  ///< Innovation variance S = H P H^T + R
+    bool accepted = true;  ///< Passed its individual gate and the joint one
   };
   std::vector<Pair> pairs;
-  std::vector<Bearing> unmapped;  ///< of something that is not in the map
-  std::uint64_t repeated = 0;     ///< have the name of an earlier bearing of the same image, so it is not theirs
-  std::uint64_t ambiguous = 0;    ///< left alone: a rival hypothesis explains them otherwise
-  std::uint64_t thinned = 0;      ///< left alone: too soon after the last one of the same landmark
+  std::vector<Bearing> unmapped;  ///< Bearings of landmarks that are not in the map
+  std::uint64_t repeated = 0;     ///< Bearings with the name of an earlier bearing in the image; not used
+  std::uint64_t ambiguous = 0;    ///< Bearings not used because a rival hypothesis explains them differently
+  std::uint64_t thinned = 0;      ///< Bearings not used because the last one of the same landmark was too recent
 
   std::size_t rejected() const;
   void clear() {
@@ -35,10 +35,10 @@ struct PlanarMatches {
   }
 };
 
-/// Mapped points of an image that place the robot.
+/// Bearings of mapped points from which the robot's pose can be computed.
 struct PlacedSightings {
   std::vector<MappedSighting> sightings;
-  std::vector<std::size_t> landmarks;  ///< of each
+  std::vector<std::size_t> landmarks;  ///< The landmark of each bearing
 
   void clear() {
     sightings.clear();
@@ -50,38 +50,38 @@ struct PlacedSightings {
   }
 };
 
-/// Which bearing belongs to which mapped landmark, and which pairings are believed.
+/// Data association of bearings with mapped landmarks, and gating of the pairs.
 ///
-/// What is returned stands until the next call. Thread contract: thread-bound; does not allocate once its workspace has
-/// grown to the largest image.
+/// Returned references are valid until the next call. Thread contract: thread-bound; does not allocate once its
+/// workspace has grown to the largest image.
 class PlanarMatcher {
  public:
   using Landmarks = std::span<const PlanarLandmark>;
 
   PlanarMatcher(const EkfSettings& settings, double new_density_per_rad);
 
-  /// A name stands for one landmark; bearings without are not used.
+  /// Association by name; bearings without a name are not used.
   const PlanarMatches& match_names(const BearingSet& image, Landmarks landmarks, const PlanarView& view);
-  /// A bearing belongs to the landmark that the likeliest joint hypothesis gives it, is of something new when that
-  /// hypothesis says so, and is left alone when a rival hypothesis says otherwise.
+  /// Association by position. A bearing gets the landmark that the most likely joint hypothesis assigns, or counts as
+  /// unmapped if that hypothesis says so. It is not used when a rival hypothesis disagrees.
   const PlanarMatches& match_places(const BearingSet& image, Landmarks landmarks, const PlanarView& view);
 
-  /// The joint hypotheses that match_places() chooses from, those far less likely than the best left out. They are
-  /// looked for with less effort, as many filters do so at once.
+  /// The joint hypotheses that match_places() would choose from, without those far less likely than the best. The
+  /// search uses less effort, since many filters run it at once.
   const JointCompatibility& weigh(const BearingSet& image, Landmarks landmarks, const PlanarView& view,
                                   double keep_log_ratio);
-  /// The matches by one of them, of the same image, landmarks and view.
+  /// The matches by one of these hypotheses, for the same image, landmarks and view.
   const PlanarMatches& match_weighed(const BearingSet& image, Landmarks landmarks, const PlanarView& view,
                                      std::size_t hypothesis);
 
-  /// The named bearings of mapped points, gated or not.
+  /// The named bearings of mapped points, without gating.
   const PlacedSightings& named_points(const BearingSet& image, Landmarks landmarks, const PlanarView& view);
-  /// Bearings that are of one point and of no other, by where it should be, and by its name where there are names.
+  /// Bearings that match exactly one point, by predicted direction and, where there are names, by name.
   const PlacedSightings& undisputed_points(const BearingSet& image, Landmarks landmarks, const PlanarView& view,
                                            bool named);
 
  private:
-  /// A mapped landmark as the camera should see it.
+  /// A mapped landmark and its predicted bearing.
   struct Visible {
     std::size_t landmark;
     PlanarView::Predicted predicted;
@@ -100,13 +100,13 @@ class PlanarMatcher {
 
   EkfSettings settings_;
   JointGates gates_;
-  bool jolted_ = false;  ///< the running image is one of a robot that turned farther than it should have
+  bool jolted_ = false;  ///< The robot turned farther than odometry said before the running image
   JointCompatibility association_;
   JointTest joint_test_;
   PlanarMatches matches_;
   PlacedSightings placed_;
 
-  // Of the running image.
+  // State of the running image.
   std::vector<MeasuredAzimuth> measured_;
   std::vector<Visible> visible_;
   std::vector<double> visible_azimuths_rad_;

@@ -13,33 +13,39 @@ namespace {
 
 constexpr double kGate_sigmas = 3.0;
 constexpr double kApart_rad = 0.03;
-constexpr double kUsual = 0.95;  // share of the landmarks seen
-constexpr double kReach = 1.5;   // of the usual range
+constexpr double kUsual = 0.95;  // share of recognised landmarks within the usual range
+constexpr double kReach = 1.5;   // times the usual range
 constexpr int kFewestRecognised = 50;
-constexpr double kRangeStep = 0.05;  // relative, per landmark seen
-constexpr double kInnerView = 0.9;   // of the field of view: nearer to its rim nothing is expected
+constexpr double kRangeStep = 0.05;  // relative change per recognised landmark
+constexpr double kInnerView = 0.9;   // share of the field of view in which landmarks are expected
 constexpr double kNamedByAccident = 0.05;
-constexpr double kSlackRange = 1.25;  // beyond the farthest landmark seen lately
+constexpr double kSlackRange = 1.25;  // times the distance of the farthest landmark seen lately
 
-/// By its name.
+/// Whether the image has a bearing with the landmark's name.
 bool shows(const BearingSet& image, const PlanarLandmark& landmark) {
   return std::ranges::find(image.bearings, landmark.identity, &Bearing::identity) != image.bearings.end();
 }
 
 }  // namespace
 
-PlanarSearch::PlanarSearch(const Rig& rig, const EkfSettings& settings)
-    : rig_(rig), settings_(settings), named_(names_landmarks(rig)), by_looks_(names_by_looks(rig)) {}
+PlanarSearch::PlanarSearch(const Rig& rig, const EkfSettings& settings, const RelocalisationSettings& relocalisation)
+    : rig_(rig),
+      settings_(settings),
+      detection_probability_(relocalisation.detection_probability),
+      named_(names_landmarks(rig)),
+      by_looks_(names_by_looks(rig)) {}
 
-/// Which of a saved map's landmarks were in view when it was saved nobody knows: one that is not in the image need not
-/// be, one that is has to be where it should. Where there are no names it cannot be told whether it is.
+/// Whether the landmark should be in the image. It is unknown which landmarks of a saved map were in view when it was
+/// saved: a landmark that is missing in the image need not be in view, and a landmark that is present must be where it
+/// should be. Without names its presence cannot be known.
 bool PlanarSearch::is_due(const PlanarLandmark& landmark, const BearingSet& image, double path_m) const {
   if (landmark.recalled && named_) return shows(image, landmark);
   return path_m - landmark.last_used_m < kMoment_m && (named_ || was_in_one_of_the_last(landmark));
 }
 
-/// Who goes through a door loses sight of one thing after the other, while there are others where they should be; who
-/// is carried off, of all at once.
+/// Whether the landmark was seen in one of the last images. A robot that goes through a door loses sight of one
+/// landmark after the other while the others stay where they should be; a robot that is carried away loses sight of all
+/// at once.
 bool PlanarSearch::was_in_one_of_the_last(const PlanarLandmark& landmark) const {
   return images_ < kLastImages || landmark.last_used >= last_images_[images_ % kLastImages];
 }
@@ -48,7 +54,8 @@ bool PlanarSearch::is_established(const PlanarLandmark& landmark) const {
   return landmark.sightings >= static_cast<std::uint64_t>(settings_.probation.confirm_after_sightings);
 }
 
-/// Beyond, landmarks are missed for no other reason than that they are far: the smaller the image, the nearer.
+/// Whether the landmark is within the usual range. Landmarks beyond this range are missed merely because they are far
+/// and hence small in the image.
 bool PlanarSearch::is_in_range(const PlanarLandmark& landmark, const JointState& state) const {
   if (!landmark.is_point() || usual_range_m_ == 0.0) return true;
   return (state.position(landmark.block) - state.pose().position()).norm() < usual_range_m_;
@@ -60,7 +67,7 @@ bool PlanarSearch::is_in_view(const Prediction& prediction) const {
 
 ImageAgreement PlanarSearch::agreement(const BearingSet& image, Landmarks landmarks, const PlanarView& view,
                                        double path_m, bool in_doubt) {
-  // Among things in the plane that all look alike, and are not where they should be, a search finds wrong places.
+  // Among landmarks in the plane that are all alike a search finds wrong poses.
   const auto alike = [](const Bearing& bearing) { return bearing.kind == kAnyKind; };
   if (!named_ && std::ranges::all_of(image.bearings, alike)) return {};
   const auto counts = [this](const PlanarLandmark& landmark) {
@@ -81,7 +88,7 @@ ImageAgreement PlanarSearch::agreement(const BearingSet& image, Landmarks landma
     width_rad += 2.0 * prediction.gate_rad;
   }
   agreement.explained = static_cast<int>(std::ranges::count(explained_, Explained::by_one_apart));
-  if (agreement.expected == 0) {  // nothing can speak against the pose any more, but what is where it should be for it
+  if (agreement.expected == 0) {  // nothing can contradict the pose, only confirm it
     agreement.expected = agreement.explained;
     width_rad = width_of_all_rad;
   }
@@ -102,9 +109,9 @@ ImageAgreement PlanarSearch::agreement_of_features(const BearingSet& image, Land
   const bool all_round = view_rad >= 2.0 * kPi;
   for (const PlanarLandmark& landmark : landmarks) {
     const bool shown = shows(image, landmark);
-    // Which of a saved map's landmarks were in view when it was saved nobody knows.
+    // It is unknown which landmarks of a saved map were in view when it was saved.
     if (!shown && landmark.recalled) continue;
-    if (!shown && all_round) {  // most of a map: it need not be known where
+    if (!shown && all_round) {  // most of the map: its direction is not needed
       looks_.push_back({landmark.id, landmark.sightings, false, 0.0});
       continue;
     }
@@ -139,9 +146,9 @@ void PlanarSearch::predict(const BearingSet& image, Landmarks landmarks, const P
   if (!named_) tell_apart();
 }
 
-/// Of two in nearly the same direction one hides the other, or an image shows them as one thing of neither's kind: that
-/// they are missed, once a robot comes round a corner all of them, says nothing. A name was read off what is seen
-/// whole.
+/// Marks landmarks that are near each other in direction. One may occlude the other, or the image shows both as one
+/// blob of another kind, so missing them means nothing. Names do not need this: a name is read only off a fully visible
+/// landmark.
 void PlanarSearch::tell_apart() {
   std::ranges::sort(predictions_, {}, &Prediction::azimuth_rad);
   const std::size_t count = predictions_.size();
@@ -173,7 +180,7 @@ bool PlanarSearch::shows_there(const BearingSet& image, const Prediction& predic
 void PlanarSearch::note_range(double distance_m) {
   constexpr double kForgetting = 0.9999;
   seen_range_m_ = std::max(kForgetting * seen_range_m_, distance_m);
-  // Up by as much more than down as makes both equally often (Robbins, Monro 1951).
+  // Stochastic approximation of the quantile: steps up and down balance at kUsual (Robbins, Monro 1951).
   ++recognised_;
   if (usual_range_m_ == 0.0) usual_range_m_ = distance_m;
   usual_range_m_ *= std::exp(kRangeStep * (distance_m > usual_range_m_ ? kUsual : kUsual - 1.0));
@@ -203,7 +210,7 @@ CameraView PlanarSearch::camera_view(const BearingEkf& ekf) const {
   CameraView view;
   view.yaw_rad = ekf.yaw_offset_rad();
   view.field_of_view_rad = std::min(2.0 * kPi, rig_.camera.field_of_view_rad);
-  view.detection_probability = settings_.relocalisation.detection_probability;
+  view.detection_probability = detection_probability_;
   view.max_distance_m = settings_.max_viewing_distance_m;
   if (seen_range_m_ > 0.0) view.max_distance_m = std::min(view.max_distance_m, kSlackRange * seen_range_m_);
   return view;
@@ -213,7 +220,7 @@ std::span<const SeenDirection> PlanarSearch::directions(const BearingSet& image,
                                                         const BearingEkf& ekf) {
   directions_.clear();
   for (const Bearing& bearing : image.bearings) {
-    // Names of ours that are new stand for nothing in the map, and would be most of the directions.
+    // Newly assigned identities match nothing in the map, and would be most of the directions.
     if (by_looks_ && std::ranges::find(landmarks, bearing.identity, &PlanarLandmark::identity) == landmarks.end())
       continue;
     const Sighting seen = ekf.sighting_from(JointState::kPose, bearing.azimuth_rad, bearing.radius_px);

@@ -14,49 +14,50 @@
 
 namespace azimuth {
 
-/// What noticing that the robot is lost, and searching for it, need to know of the planar map (lost_robot.hpp).
+/// Detection that the robot is lost, and input of the search for it, for the planar map (lost_robot.hpp).
 ///
-/// What is returned by reference stands until the next call. Thread contract: thread-bound.
+/// Returned references are valid until the next call. Thread contract: thread-bound.
 class PlanarSearch {
  public:
   using Landmarks = std::span<const PlanarLandmark>;
 
-  PlanarSearch(const Rig& rig, const EkfSettings& settings);
+  PlanarSearch(const Rig& rig, const EkfSettings& settings, const RelocalisationSettings& relocalisation);
 
-  /// What was seen a moment ago and is in view still, and how much of the image is where it should be. `in_doubt`:
-  /// whether the images before speak against the pose.
+  /// How many of the landmarks that were seen a moment ago and are still in view are where they should be in the image.
+  /// `in_doubt`: the previous images speak against the pose.
   ImageAgreement agreement(const BearingSet& image, Landmarks landmarks, const PlanarView& view, double path_m,
                            bool in_doubt);
 
-  /// Likewise of features, of which an image shows but some: by how often such are seen again.
+  /// Variant for features. An image shows only some of the features in view, so the agreement is judged by how often
+  /// such features are seen again.
   ImageAgreement agreement_of_features(const BearingSet& image, Landmarks landmarks, const PlanarView& view,
                                        double path_m, bool in_doubt);
-  /// The robot is elsewhere than it was thought to be: no image is to be compared with those before.
+  /// The robot's pose was found anew: previous images are not comparable with the next ones.
   void forget_images() { seen_again_.forget_images(); }
 
-  /// A landmark was recognised so far away: how far the camera sees, as experience says.
+  /// A landmark was recognised at this distance; from such distances the camera's usual range is learned.
   void note_range(double distance_m);
-  /// Nearer than that are 19 of 20 of the landmarks it sees.
+  /// 19 of 20 landmarks that the camera recognises are nearer than this.
   double usual_range_m() const { return usual_range_m_; }
-  /// Farther than that nothing is seen that an image could show: where landmarks only look like others, and once
-  /// enough of them have been recognised; else there is no such limit.
+  /// Distance beyond which a landmark cannot be associated. It is finite only where landmarks are told apart by colour
+  /// and once enough of them have been recognised.
   double reach_m() const;
 
   static std::vector<KnownLandmark> known(Landmarks landmarks, const JointState& state);
   CameraView camera_view(const BearingEkf& ekf) const;
-  /// The image's directions for a search, those under names of ours that are not in the map left out.
+  /// The image's directions for a search. Features whose identity is not in the map are left out.
   std::span<const SeenDirection> directions(const BearingSet& image, Landmarks landmarks, const BearingEkf& ekf);
 
  private:
-  /// Where a landmark should be in the image.
+  /// The predicted bearing of a landmark.
   struct Prediction {
     const PlanarLandmark* landmark;
     double azimuth_rad, gate_rad;
     bool due;
-    bool apart;  ///< from all others
+    bool apart;  ///< No other landmark is near in direction
   };
   static Prediction prediction_of(const PlanarLandmark& landmark, const PlanarView::Predicted& predicted, bool due);
-  /// Under its name, where it should be.
+  /// Whether the image has a bearing with the landmark's identity in the predicted direction.
   static bool shows_there(const BearingSet& image, const Prediction& prediction);
   enum class Explained : std::uint8_t { not_at_all, by_one_beside_another, by_one_apart };
   bool is_established(const PlanarLandmark& landmark) const;
@@ -64,25 +65,26 @@ class PlanarSearch {
   bool was_in_one_of_the_last(const PlanarLandmark& landmark) const;
   bool is_in_range(const PlanarLandmark& landmark, const JointState& state) const;
   bool is_in_view(const Prediction& prediction) const;
-  /// Of what is established, and may be in the image.
+  /// Predicts the established landmarks that may be in the image.
   void predict(const BearingSet& image, Landmarks landmarks, const PlanarView& view, double path_m);
   void tell_apart();
   void mark_explained(const BearingSet& image, const Prediction& prediction);
 
   Rig rig_;
   EkfSettings settings_;
+  double detection_probability_;  ///< detection probability in a search, see RelocalisationSettings
   bool named_, by_looks_;
-  double seen_range_m_ = 0.0;  ///< of the farthest landmark seen lately
+  double seen_range_m_ = 0.0;  ///< Distance of the farthest landmark recognised lately, slowly decaying
   int recognised_ = 0;
-  double usual_range_m_ = 0.0;  ///< see usual_range_m()
-  /// Of the last images from before any doubt, in turn.
+  double usual_range_m_ = 0.0;  ///< See usual_range_m()
+  /// Ring of the stamps of the last images taken while there was no doubt.
   static constexpr std::size_t kLastImages = 8;
   std::array<Stamp, kLastImages> last_images_{};
   std::size_t images_ = 0;
   SeenAgain seen_again_;
   std::vector<Look> looks_;
   std::vector<Prediction> predictions_;
-  std::vector<Explained> explained_;  ///< the image's bearings, by landmarks where they should be
+  std::vector<Explained> explained_;  ///< Whether landmarks explain each bearing of the image
   std::vector<SeenDirection> directions_;
 };
 

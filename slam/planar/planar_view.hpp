@@ -9,9 +9,9 @@
 
 namespace azimuth {
 
-/// How the camera sees the landmarks of the planar filter from where the robot is believed to be.
+/// Predicts how the camera sees the landmarks of the planar filter from the robot's estimated pose.
 ///
-/// Thread contract: reentrant. Borrows filter and camera, and follows what becomes of them.
+/// Thread contract: reentrant. Refers to filter and camera, and follows their changes.
 class PlanarView {
  public:
   PlanarView(const BearingEkf& ekf, const CameraRig& camera, double reach_m = std::numeric_limits<double>::infinity())
@@ -20,27 +20,28 @@ class PlanarView {
   const BearingEkf& ekf() const { return ekf_; }
   const CameraRig& camera() const { return camera_; }
 
-  /// Whether a landmark that looks like others is near enough to be the one that is seen.
+  /// Whether a landmark that looks like others is near enough to be associated with a bearing.
   bool reaches(const PlanarLandmark& landmark) const {
     if (!landmark.is_point()) return true;
     return (ekf_.state().position(landmark.block) - ekf_.state().pose().position()).norm() < reach_m_;
   }
 
-  /// The noise of a bearing, by itself or by the rig [rad^2].
+  /// The noise variance of a bearing, its own or the rig's [rad^2].
   double variance_rad2(const Bearing& bearing) const;
   MappedSighting sighting_of(const PlanarLandmark& landmark, const Bearing& bearing) const;
 
-  /// A landmark as it should be seen.
+  /// A predicted bearing of a landmark.
   struct Predicted {
     ObservationRow row;
     double azimuth_rad;    ///< in the camera's frame
-    double variance_rad2;  ///< of that, what a linear prediction leaves out included
+    double variance_rad2;  ///< Variance of the azimuth, including what a linear prediction leaves out
   };
-  /// Nothing when it is too near. How far from the image's centre is known from the last time, near enough for the
-  /// little the centre's error turns it.
+  /// Nothing when the landmark is too near. The distance from the image's centre is taken from its last bearing, which
+  /// is accurate enough for the small effect of the centre's error.
   std::optional<Predicted> predict(const PlanarLandmark& landmark) const;
 
-  /// h(x) for a bearing of the rig's own noise, straight through the image's centre, with H P H^T (SPEC I.6, I.7).
+  /// h(x) and H P H^T for a bearing with the rig's noise, without the effect of the image's centre (mathematics I.6,
+  /// I.7).
   std::optional<Predicted> predict_straight(const PlanarLandmark& landmark) const;
 
  private:

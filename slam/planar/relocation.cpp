@@ -9,11 +9,11 @@
 namespace azimuth {
 namespace {
 
-constexpr std::size_t kContradictions = 3;  // fewer say more of the landmarks than of the pose
-// A variance this many times larger weighs little against the one it is replaced by.
+constexpr std::size_t kContradictions = 3;  // fewer rejections point to wrong landmarks rather than to a wrong pose
+// Factor between variances above which the smaller one replaces the larger one.
 constexpr double kMuchLarger = 9.0;
 constexpr int kUnknowns = 3;  // x, y, heading
-// A rival is ruled out only when it fails by a margin.
+// A rival pose is ruled out only if it fails the test by this factor.
 constexpr double kRivalFactor = 2.0;
 
 }  // namespace

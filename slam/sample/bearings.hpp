@@ -10,17 +10,17 @@
 
 namespace azimuth {
 
-/// The name a sensor gives to what it sees (a barcode, a colour tag). kUnknownIdentity: it cannot tell.
+/// The identity that a sensor reports for a landmark (a barcode, a colour tag). kUnknownIdentity: unknown.
 using Identity = std::int64_t;
 inline constexpr Identity kUnknownIdentity = -1;
 
-/// What sort of thing was seen, as far as the sensor can tell sorts but not things apart (the class of a coloured
-/// landmark). Things of two kinds are never the same thing. kAnyKind: it cannot tell.
+/// The kind of a landmark, for a sensor that distinguishes kinds but not individual landmarks (the class of a coloured
+/// landmark). Two landmarks of different kinds are never the same one. kAnyKind: unknown.
 using Kind = std::int32_t;
 inline constexpr Kind kAnyKind = -1;
 constexpr bool same_kind(Kind a, Kind b) { return a == b || a == kAnyKind || b == kAnyKind; }
 
-/// One direction in the robot's frame.
+/// A bearing in the robot's frame.
 struct Bearing {
   double azimuth_rad = 0.0;  ///< counter-clockwise from the robot's heading, in [-pi, pi)
   double elevation_rad = std::numeric_limits<double>::quiet_NaN();  ///< up from the horizontal; NaN: not measured
@@ -28,19 +28,20 @@ struct Bearing {
   Kind kind = kAnyKind;
   /// Standard deviation of the azimuth; NaN: the rig's sigma_bearing_rad.
   double sigma_rad = std::numeric_limits<double>::quiet_NaN();
-  /// Distance from the image's centre, whose error turns near bearings more than far ones; NaN: not from an image.
+  /// Distance from the image's centre; NaN: not from an image. An error of the centre changes the azimuth the more, the
+  /// smaller this distance is.
   double radius_px = std::numeric_limits<double>::quiet_NaN();
   /// Standard deviation of the elevation; NaN: not known.
   double sigma_elevation_rad = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// What the surroundings of a feature look like (SPEC I.12): 4 x 4 regions of 8 directions, 8 bits each.
+/// The appearance of a feature's surroundings (mathematics I.12): 4 x 4 regions of 8 directions, 8 bits each.
 struct alignas(32) Descriptor {
   std::array<std::uint8_t, 128> values{};
   friend bool operator==(const Descriptor&, const Descriptor&) = default;
 };
 
-/// The features nearest to a feature in its image, by index into the same set, nearest first (SPEC I.14).
+/// The features nearest to a feature in its image, by index into the same set, nearest first (mathematics I.14).
 struct Neighbours {
   static constexpr std::size_t kMost = 5;
   static constexpr std::uint16_t kNone = 0xffff;
@@ -48,16 +49,16 @@ struct Neighbours {
   friend bool operator==(const Neighbours&, const Neighbours&) = default;
 };
 
-/// What speaks against using an image. Travels with the (empty) set that was seen in it, so that the estimate's health
-/// can name it. The numbers stand in logs: never change one.
+/// The reason for not using an image. It accompanies the image's empty bearing set, so that the estimate's health can
+/// name it. The numbers are stored in logs and must never change.
 enum class ImageTrouble : std::uint8_t {
   none = 0,
   unreadable = 1,   ///< wrong size or format, or cut short
-  dark = 2,         ///< hardly anything is brighter than black
-  overexposed = 3,  ///< most of it is white
-  featureless = 4,  ///< one grey: covered or out of focus
-  frozen = 5,       ///< the same image again and again
-  torn = 6,         ///< rows of two instants, or filled up for want of more
+  dark = 2,         ///< hardly any pixel is brighter than black
+  overexposed = 3,  ///< most pixels are white
+  featureless = 4,  ///< uniform grey: lens covered or out of focus
+  frozen = 5,       ///< the same image repeated
+  torn = 6,         ///< rows of two exposures, or missing rows filled up
 };
 
 inline constexpr int kImageTroubles = 7;
@@ -83,20 +84,20 @@ constexpr std::string_view to_string(ImageTrouble trouble) {
   return "?";
 }
 
-/// Room that storage for the bearings of one image starts with.
+/// Initial capacity for the bearings of one image.
 inline constexpr std::size_t kTypicalBearings = 32;
 
-/// All bearings of one instant (one image). May be empty: an image in which nothing was found.
+/// All bearings of one image. The set is empty when nothing was found in the image.
 struct BearingSet {
   Stamp stamp{};
   std::uint64_t sequence = 0;  ///< counts sets at their source; a gap means sets were lost
   std::vector<Bearing> bearings;
-  // Of features that are told apart by their looks; else empty. One entry for each bearing.
+  // One entry per bearing for features that are identified by their appearance; otherwise empty.
   std::vector<Descriptor> descriptors = {};
   std::vector<Neighbours> neighbours = {};
   ImageTrouble trouble = ImageTrouble::none;
 
-  /// Nothing seen, storage kept; stamp and sequence stay.
+  /// Removes all bearings. Storage, stamp and sequence are kept.
   void clear() {
     bearings.clear();
     descriptors.clear();

@@ -1,5 +1,5 @@
 #pragma once
-// Images as memory: what every camera driver hands out and perception reads.
+// Images in memory, as camera drivers provide and perception reads them.
 
 #include <array>
 #include <cstddef>
@@ -11,8 +11,8 @@
 
 namespace azimuth {
 
-/// How a pixel's value stands in memory, 8 bits a sample. Bayer formats are named by the first two pixels of the first
-/// two rows. The numbers travel between processes: never change one.
+/// Memory layout of pixels, with 8 bits per sample. The names of Bayer formats give the first two pixels of the first
+/// two rows. The numbers are exchanged between processes and must never change.
 enum class PixelFormat : std::uint8_t {
   gray8 = 0,
   yuyv = 1,  ///< 4:2:2, two pixels in Y0 U Y1 V
@@ -24,7 +24,7 @@ enum class PixelFormat : std::uint8_t {
   bayer_gbrg8 = 7,
   bayer_bggr8 = 8,
   mjpeg = 9,  ///< each frame is one JPEG image
-  nv12 = 10,  ///< 4:2:0, all rows of Y, then half as many of U V U V, of the same stride
+  nv12 = 10,  ///< 4:2:0, all rows of Y, then half as many rows of U V U V with the same stride
 };
 inline constexpr int kPixelFormats = 11;
 
@@ -36,7 +36,7 @@ constexpr std::string_view name(PixelFormat pixels) {
   return kNames.at(as_size(pixels));
 }
 
-/// Bytes of one pixel in its row; 0 for mjpeg, which has none of fixed size. Of nv12 those of its luma.
+/// Bytes of one pixel in its row; for nv12, of its luma. 0 for mjpeg, whose pixels have no fixed size.
 constexpr int bytes_per_pixel(PixelFormat pixels) {
   switch (pixels) {
     case PixelFormat::mjpeg:
@@ -59,13 +59,13 @@ struct FrameFormat {
   int stride_bytes = 0;  ///< from row to row; 0 for mjpeg
   friend bool operator==(const FrameFormat&, const FrameFormat&) = default;
 
-  /// Rows in memory, of all planes: more than the image has for nv12, which goes on with chroma.
+  /// Number of rows in memory, of all planes. For nv12, the rows of chroma follow those of the image.
   int rows() const { return pixels == PixelFormat::nv12 ? height_px + height_px / 2 : height_px; }
-  /// Of a whole uncompressed frame.
+  /// Size of an uncompressed frame.
   std::size_t bytes() const { return as_size(stride_bytes) * as_size(rows()); }
 };
 
-/// Rows without padding.
+/// Format with unpadded rows.
 constexpr FrameFormat packed_format(PixelFormat pixels, int width_px, int height_px) {
   return {pixels, width_px, height_px, width_px * bytes_per_pixel(pixels)};
 }
@@ -73,8 +73,8 @@ constexpr FrameFormat packed_format(PixelFormat pixels, int width_px, int height
 inline constexpr int kMaxFrameSide_px = 16384;
 inline constexpr int kMaxRowPadding = 4096;
 
-/// Whether memory can be laid out like that: sides from 1 to kMaxFrameSide_px, even width for the 4:2:2 formats and
-/// even sides for 4:2:0, rows that do not overlap and are padded by at most kMaxRowPadding bytes.
+/// Whether the format is possible: sides from 1 to kMaxFrameSide_px, even width for the 4:2:2 formats, even sides for
+/// 4:2:0, and rows that do not overlap and have at most kMaxRowPadding bytes of padding.
 constexpr bool is_valid(const FrameFormat& format) {
   const auto is_side = [](int side_px) { return side_px >= 1 && side_px <= kMaxFrameSide_px; };
   if (!is_side(format.width_px) || !is_side(format.height_px)) return false;
@@ -87,16 +87,17 @@ constexpr bool is_valid(const FrameFormat& format) {
   return format.stride_bytes >= row_bytes && format.stride_bytes <= row_bytes + kMaxRowPadding;
 }
 
-/// An image somebody else holds: format.bytes() of them, or one whole JPEG file for mjpeg. No bytes: no image.
+/// A view of an image in memory owned elsewhere: format.bytes() bytes, or one whole JPEG file for mjpeg. Empty `bytes`:
+/// no image.
 struct ImageView {
   FrameFormat format;
   std::span<const std::byte> bytes;
 
-  /// Whether perception can read it: uncompressed, of a possible layout, and all there.
+  /// Whether perception can read the image: uncompressed, valid format, complete.
   bool readable() const {
     return format.pixels != PixelFormat::mjpeg && is_valid(format) && bytes.size() >= format.bytes();
   }
-  /// Of nv12, the chroma of row v is row height_px + v / 2.
+  /// Start of row v. For nv12, the chroma of row v is in row height_px + v / 2.
   const std::uint8_t* row(int v) const {
     return reinterpret_cast<const std::uint8_t*>(bytes.data()) + as_size(v) * as_size(format.stride_bytes);
   }

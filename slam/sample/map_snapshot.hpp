@@ -1,5 +1,5 @@
 #pragma once
-// A map as it outlives an estimator: what is saved to disk, and what the next start begins from.
+// A map independent of an estimator: it is saved to disk, and the next start can begin from it.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -15,12 +15,12 @@
 
 namespace azimuth {
 
-/// A symmetric matrix, of which the lower triangle is kept, column after column.
+/// A symmetric matrix, stored as its lower triangle, column by column.
 ///
 /// Thread contract: thread-bound. resize() allocates only beyond the largest size so far.
 class PackedSymmetric {
  public:
-  /// Zero everywhere.
+  /// Sets the size and all entries to zero.
   void resize(std::size_t size) {
     size_ = size;
     lower_.assign(packed_size(size), 0.0);
@@ -30,7 +30,7 @@ class PackedSymmetric {
   double operator()(std::size_t row, std::size_t column) const { return lower_[at(row, column)]; }
   double& operator()(std::size_t row, std::size_t column) { return lower_[at(row, column)]; }
 
-  /// Rows `column` to the last of a column.
+  /// A column from its diagonal entry downwards.
   std::span<double> below(std::size_t column) { return {&lower_[at(column, column)], size_ - column}; }
   std::span<const double> below(std::size_t column) const { return {&lower_[at(column, column)], size_ - column}; }
 
@@ -53,18 +53,18 @@ class PackedSymmetric {
 /// A landmark of a saved map.
 struct MapLandmark {
   std::int64_t id = 0;                   ///< see LandmarkEstimate
-  Identity identity = kUnknownIdentity;  ///< as MapSnapshot::names says
+  Identity identity = kUnknownIdentity;  ///< assigned as MapSnapshot::names says
   Kind kind = kAnyKind;
-  std::uint64_t sightings = 0;  ///< bearings accepted
+  std::uint64_t sightings = 0;  ///< number of accepted bearings
   Eigen::Vector2d p_map_landmark_m = Eigen::Vector2d::Zero();
   double z_map_landmark_m = std::numeric_limits<double>::quiet_NaN();  ///< above the floor; NaN: mapped in the plane
 
   bool has_height() const { return z_map_landmark_m == z_map_landmark_m; }
-  /// Coordinates it has in the joint covariance.
+  /// Number of coordinates in the joint covariance.
   std::size_t size() const { return has_height() ? 3 : 2; }
 };
 
-/// What a landmark looked like, and from where.
+/// The appearance of a landmark, and the position from which it was seen.
 struct MapView {
   Identity identity = kUnknownIdentity;  ///< of the landmark
   Eigen::Vector2d p_map_robot_m = Eigen::Vector2d::Zero();
@@ -72,40 +72,40 @@ struct MapView {
   friend bool operator==(const MapView&, const MapView&) = default;
 };
 
-/// Who gave the landmarks of a map their identities. The numbers stand in files: never change one.
+/// The origin of the landmarks' identities in a map. The numbers are stored in files and must never change.
 enum class MapNames : std::uint8_t {
-  none = 0,    ///< nobody: they are told apart by where they are
-  sensor = 1,  ///< the sensor, which sees names
-  looks = 2,   ///< the estimator, by what they look like: see MapSnapshot::views
+  none = 0,    ///< no identities: landmarks differ by position only
+  sensor = 1,  ///< the sensor
+  looks = 2,   ///< the estimator, by appearance: see MapSnapshot::views
 };
 
-/// What an estimator knows of the world at one instant.
+/// An estimator's map and pose at one instant.
 struct MapSnapshot {
   Stamp stamp{};     ///< of the last step
   Pose2 T_map_body;  ///< the robot's pose then
-  /// What the estimator found out about its camera, in an order of its own: another estimator, or one with other
-  /// settings, has no use for it.
+  /// The camera calibration that the estimator found, in an order of its own. Other estimators or settings cannot use
+  /// it.
   std::vector<double> camera;
   std::vector<MapLandmark> landmarks;
-  /// Of, one after another: the pose (x [m], y [m], heading [rad]), `camera`, and each landmark's x, y and, where it
-  /// has a height, z.
+  /// Joint covariance of the pose (x [m], y [m], heading [rad]), then `camera`, then each landmark's x, y and, for a
+  /// landmark with a height, z.
   PackedSymmetric covariance;
-  std::vector<MapView> views;  ///< of each landmark known by its looks, oldest first
+  std::vector<MapView> views;  ///< views of landmarks identified by appearance, oldest first
   MapNames names = MapNames::none;
-  std::int64_t next_id = 0;    ///< no landmark has had this id or a higher one
-  Identity next_identity = 0;  ///< likewise, where the estimator gives the names
+  std::int64_t next_id = 0;    ///< above all ids used so far
+  Identity next_identity = 0;  ///< above all identities so far, if the estimator assigns them
 
   static constexpr std::size_t kPoseEntries = 3;
   /// Row of the first landmark's x in `covariance`.
   std::size_t first_landmark_entry() const { return kPoseEntries + camera.size(); }
-  /// Rows that `covariance` must have.
+  /// Number of rows that `covariance` must have.
   std::size_t entries() const {
     std::size_t entries = first_landmark_entry();
     for (const MapLandmark& landmark : landmarks) entries += landmark.size();
     return entries;
   }
 
-  /// Nothing known, storage kept.
+  /// Removes everything but keeps the storage.
   void clear() {
     camera.clear();
     landmarks.clear();

@@ -6,17 +6,17 @@
 
 namespace azimuth {
 
-/// How a robot got from where its map was saved to an odometry reading. With it an estimator that starts from that map
-/// knows where the robot is, provided that the odometer has counted on.
+/// The motion of a robot from the pose where its map was saved to an odometry reading. An estimator that starts from
+/// that map can compute the robot's pose with it, provided that the odometer has not restarted.
 struct OdometrySince {
-  Stamp map{};              ///< of the saved map: the motion leads from the robot's pose there
-  Motion motion;            ///< to `reading`, calibrated
-  OdometryReading reading;  ///< as the odometer said it
-  Pose2 T_odom_body;        ///< then, calibrated: as it was published
+  Stamp map{};              ///< stamp of the saved map, at whose pose the motion starts
+  Motion motion;            ///< calibrated motion to `reading`
+  OdometryReading reading;  ///< uncalibrated
+  Pose2 T_odom_body;        ///< calibrated pose at `reading`, as published
 };
 
-/// How the robot went since the map that the next start would begin from, and since one that is to take its place but
-/// may not come to the disk. Nothing: it does not tell where the robot is, or there is no such map.
+/// The motions since the map on disk, and since a newer map that may not have been written to disk yet. Empty: there is
+/// no such map, or it does not determine the robot's pose.
 struct OdometryWays {
   std::optional<OdometrySince> since_map, since_made_map;
 };

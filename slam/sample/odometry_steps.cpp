@@ -9,22 +9,23 @@
 namespace azimuth {
 namespace {
 
-/// More than any wheeled robot does, whatever it did before.
+/// Bounds that no wheeled robot exceeds, independent of its previous speed.
 constexpr double kMaxSpeed_m_s = 20.0, kMaxSlack_m = 0.5;
-// Wheels do not do more than that without a slip, and stamps of arrival are as late as that.
+// Bounds on a step of wheels without slip, relative to the previous speed, and on the delay of stamps taken at arrival.
 constexpr double kSlack_m = 0.1, kSlack_rad = 0.25;
 constexpr double kMayAccelerate_m_s2 = 10.0, kMayAccelerate_rad_s2 = 20.0;
 constexpr double kLate_s = 0.3;
-// To zero: an odometer that is read for the first time may have come some way since it began.
+// Bounds for a step to zero. An odometer that is read for the first time may have moved a little since its start.
 constexpr double kZero_m = 0.02, kZero_rad = 0.02, kMostZero_m = 0.1, kMostZero_rad = 0.1;
 constexpr double kZeroSlack_m = 0.03, kZeroSlack_rad = 0.05;
 constexpr double kZeroLate_s = 0.05;
 constexpr double kZeroAccelerate_m_s2 = 2.0, kZeroAccelerate_rad_s2 = 5.0;
-/// After a pause so long, of readings that are usually closer, an odometer that says exactly zero began anew.
+/// An odometer that reads exactly zero after an unusually long pause has restarted.
 constexpr double kPause_s = 1.0, kUnusual = 5.0, kApart_m = 0.1, kApart_rad = 0.1;
 
 constexpr double kStretch_s = 0.2;
-/// The pose goes on where it was. Over a short gap the robot went as before, and else as robots do.
+/// Uncertainty of the motion during a jump. Over a short gap the robot kept its speed; over a longer gap, a usual
+/// indoor speed is assumed.
 constexpr double kShort_s = 0.5, kIndoor_m_s = 1.0, kIndoor_rad_s = 1.0, kLeast_m = 0.005, kLeast_rad = 0.005;
 constexpr double kBegins_m_s2 = 1.0, kBegins_rad_s2 = 2.0;
 
@@ -47,7 +48,7 @@ std::optional<OdometryJump> OdometrySteps::next(const OdometryReading& reading) 
   return jump;
 }
 
-/// The median, of both by itself.
+/// The medians of translational and rotational speed.
 OdometrySteps::Speed OdometrySteps::usual_speed() const {
   const std::size_t count = std::min(stretches_, speeds_.size());
   if (count == 0) return {};
@@ -75,7 +76,7 @@ std::optional<OdometryJump> OdometrySteps::judge(const OdometryReading& reading)
   return jump(reading);
 }
 
-/// The fastest that it lately went, and as much more as a robot may have begun to go meanwhile.
+/// Assumes the highest recent speed, plus what a robot can gain by accelerating during the step.
 OdometryJump OdometrySteps::jump(const OdometryReading& reading) const {
   Speed fastest;
   for (const Speed& speed : speeds_) fastest = {std::max(fastest.m_s, speed.m_s), std::max(fastest.rad_s, speed.rad_s)};

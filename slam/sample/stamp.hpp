@@ -1,5 +1,5 @@
 #pragma once
-// Time as it is carried by samples. Nothing under slam/ asks a clock: stamps come from the devices.
+// Time stamps of samples. No code under slam/ reads a clock: stamps come from the devices.
 
 #include <chrono>
 #include <cmath>
@@ -24,7 +24,7 @@ constexpr Stamp stamp_from_us(std::int64_t microseconds) { return Stamp{Duration
 constexpr std::int64_t to_us(Stamp stamp) { return stamp.time_since_epoch().count(); }
 constexpr double to_seconds(Duration duration) { return 1e-6 * static_cast<double>(duration.count()); }
 constexpr double to_seconds(Stamp stamp) { return to_seconds(stamp.time_since_epoch()); }
-/// Nearest microsecond. `seconds` must be finite and below 9e12 in magnitude.
+/// Rounds to the nearest microsecond. `seconds` must be finite and below 9e12 in magnitude.
 inline Duration duration_from_seconds(double seconds) { return Duration{std::llround(seconds * 1e6)}; }
 
 }  // namespace azimuth

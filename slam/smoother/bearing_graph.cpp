@@ -10,7 +10,7 @@
 namespace azimuth {
 namespace {
 
-constexpr double kFarthestShift = 0.5;  // of a landmark's distance
+constexpr double kFarthestShift = 0.5;  // in units of the landmark's distance
 
 }  // namespace
 
@@ -107,9 +107,9 @@ void BearingGraph::use_prior(LandmarkId id, bool used) {
   landmark.prior_mean_per_m = settings_.inverse_depth_mean_per_m;
 }
 
-/// Bearings that contradict each other may push a landmark to where it was seen from first, at rho without bound: there
-/// bearings have no derivative, the normal matrix is singular, and all of the graph stands still. So a prior that is
-/// left out still says that this does not happen.
+/// Contradictory bearings may push a landmark to its chart origin, where rho grows without bound. Bearings have no
+/// derivative there, and the singular normal matrix would stop the whole graph. A prior that is off therefore keeps a
+/// weak remnant that prevents this.
 double BearingGraph::prior_information(LandmarkId id) const {
   if (landmarks_[id].known) return 0.0;
   const double sigma_per_m = (landmarks_[id].prior ? 1.0 : kTraceOfPrior_sigmas) * settings_.inverse_depth_sigma_per_m;
@@ -156,7 +156,8 @@ void BearingGraph::begin_at(const Values& values) {
   calibration_moved_ = true;
 }
 
-/// The poses are as before the step. What its prior says of it stays the same: its mean goes along.
+/// Must run before the poses move. The prior's mean moves along with the chart, so the prior's statement about the
+/// landmark stays the same.
 void BearingGraph::move_landmark(LandmarkEntry& landmark, const Eigen::Vector2d& by, const Eigen::VectorXd& step) {
   if (settings_.charts_go_along && !landmark.known) {
     const PoseEntry& first = poses_[bearings_[landmark.bearings.front()].pose];
@@ -165,8 +166,8 @@ void BearingGraph::move_landmark(LandmarkEntry& landmark, const Eigen::Vector2d&
   landmark.state = landmark.state.moved(by);
 }
 
-/// One that would go about as far as its landmark is away stays: the same place to first order would be another one,
-/// and rho, which grows by its square, soon beyond all bounds.
+/// Moves a landmark's chart origin by `shift_m`, unless the shift is of the order of the landmark's distance. The
+/// first-order change of chart would then give another place, and rho would soon grow without bound.
 void BearingGraph::take_chart_along(LandmarkEntry& landmark, const Eigen::Vector2d& shift_m) {
   const double before_per_m = landmark.state.inverse_distance_per_m;
   if (!(std::abs(before_per_m) * shift_m.norm() < kFarthestShift)) return;
@@ -242,7 +243,8 @@ int BearingGraph::size(Block block) const {
   return 0;
 }
 
-/// What the next image will have terms with is near the root, so that little is made anew then.
+/// Blocks that the next image's terms will involve get high ranks, so that they lie near the root and little is
+/// recomputed.
 std::uint8_t BearingGraph::rank(Block block) const {
   const BlockEntry& entry = blocks_[block];
   const auto newest = poses_.size() - 1;

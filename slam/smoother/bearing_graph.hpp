@@ -18,43 +18,45 @@
 
 namespace azimuth {
 
-/// Poses, landmarks, what was measured between them, and which bearing is taken to be of which landmark: the sum of
-/// squares (rather, of energies) whose minimum is looked for.
+/// The factor graph of the smoother: poses, landmarks, calibration, the measurements between them, and the data
+/// association (which landmark each bearing belongs to). Its energy is the sum of all terms; the smoother minimises it.
 ///
-/// Measurements never change; which landmark a bearing is of may. Copies share what is equal. A landmark that no
-/// bearing is of is no unknown.
+/// Apart from scale_noise(), measurements never change; the data association may. Copies share equal parts. A landmark
+/// without bearings is no unknown, unless it comes from a saved map.
 ///
 /// Thread contract: thread-bound.
 class BearingGraph : public NormalEquations {
  public:
-  /// The first pose is a constant: it fixes the map's frame. What is known of it to some standard deviation is a motion
-  /// to a second pose, of that covariance.
+  /// The first pose is a constant and fixes the map's frame. To express that the first pose is uncertain, add a second
+  /// pose by a motion of that covariance.
   BearingGraph(const SmootherSettings& settings, const Pose2& T_map_first);
 
-  /// A pose at the end of `motion` from the newest one; `motion.covariance` must be positive definite.
+  /// Adds a pose at the end of `motion` from the newest pose. `motion.covariance` must be positive definite.
   PoseId add_pose(const Motion& motion, const ByLag& by_lag = ByLag::Zero());
-  /// Of the newest pose, of no landmark.
+  /// Adds a bearing from the newest pose. The bearing belongs to no landmark yet.
   BearingId add_bearing(double azimuth_rad, double sigma_rad, const std::optional<MeasuredElevation>& elevation = {},
                         const ByCentre& by_centre = ByCentre::Zero());
-  /// On the ray of a bearing as it lies now, at the distance that the prior says. The bearing is not of it yet.
+  /// Adds a landmark on the current ray of bearing `first`, at the mean distance of the prior. The bearing is not yet
+  /// assigned to the landmark.
   LandmarkId add_landmark(BearingId first);
-  /// Where it is said to be. It is an unknown although no bearing is of it: remember() is to follow.
+  /// Adds a landmark of a saved map at the given place. The landmark is an unknown even without bearings. The caller
+  /// must call remember() afterwards, which adds the prior of the landmark.
   LandmarkId add_known_landmark(const SmoothedLandmark& landmark);
-  /// At most once.
+  /// Adds the joint prior from a saved map. It may be called at most once.
   void remember(Remembered remembered);
-  /// How well one of calibration:: is known before, where it is an unknown: more or less than was said at first.
+  /// Sets the prior standard deviation of the value `which` of calibration::, which must be an unknown.
   void set_calibration_sigma(int which, double sigma);
   double calibration_sigma(int which) const { return calibration_sigma_[static_cast<std::size_t>(which)]; }
-  /// All bearings so far, and all that odometry has said, turn out to be so many times as noisy.
+  /// Multiplies the standard deviations of all azimuths and of all odometry so far by these factors.
   void scale_noise(double bearings, double odometry);
-  /// What is known of a new landmark's distance before any bearing tells: each has this, until it is left out. A trace
-  /// of it stays even then (prior_information()).
+  /// Switches the prior of a new landmark's inverse distance on or off. The prior is on at first. When it is off, a
+  /// weak remnant of it stays (see prior_information()).
   void use_prior(LandmarkId landmark, bool used);
-  /// kOfNothing: of none.
+  /// Assigns the bearing to the landmark; kOfNothing: to no landmark.
   void assign(BearingId bearing, LandmarkId landmark);
-  /// These poses and their bearings are no more; what odometry says of the way into one and out of it becomes what it
-  /// says of the way past it. Poses, bearings and blocks that are left are numbered anew, in the order that they have;
-  /// landmarks stay. The first pose, the newest one and that of what is remembered cannot be forgotten.
+  /// Removes these poses and their bearings. The odometry into and out of a removed pose becomes one composed
+  /// measurement. The remaining poses, bearings and blocks are renumbered in their order; landmarks keep their numbers.
+  /// The first pose, the newest pose and the pose of the remembered map cannot be removed.
   void forget(std::span<const PoseId> poses);
 
   std::int32_t poses() const { return poses_.size(); }
@@ -64,34 +66,38 @@ class BearingGraph : public NormalEquations {
   const SmoothedPose& smoothed_pose(PoseId id) const { return poses_[id].state; }
   const SmoothedLandmark& landmark(LandmarkId id) const { return landmarks_[id].state; }
   const std::vector<BearingId>& bearings_of(LandmarkId id) const { return landmarks_[id].bearings; }
-  bool is_known(LandmarkId id) const { return landmarks_[id].known; }  ///< from before
+  bool is_known(LandmarkId id) const { return landmarks_[id].known; }  ///< whether the landmark comes from a saved map
   bool has_prior(LandmarkId id) const { return landmarks_[id].prior && !landmarks_[id].known; }
   double prior_mean_per_m(LandmarkId id) const { return landmarks_[id].prior_mean_per_m; }
-  /// Of its inverse distance [m^2]: how much the prior says of it, left out or not. Nothing of a known one.
+  /// Information of the landmark's prior on its inverse distance [m^2], whether the prior is on or off. It is zero for
+  /// a landmark of a saved map.
   double prior_information(LandmarkId id) const;
-  /// Of its inverse distance [m^2]: how much those of its bearings say that fit, with poses taken as known, as of the
-  /// last evaluate().
+  /// Information of the inverse distance [m^2] from those of the landmark's bearings that fit, with the poses taken as
+  /// known, as of the last evaluate().
   double told_information(LandmarkId id) const;
-  /// Else it is none: no bearing is of it.
+  /// Whether the landmark is an unknown: it comes from a saved map or has bearings.
   bool is_unknown(LandmarkId id) const { return landmarks_[id].known || !landmarks_[id].bearings.empty(); }
   const Remembered& remembered() const { return *remembered_; }
-  const OdometryMeasurement& odometry_to(PoseId id) const { return odometry_[id]; }  ///< from the pose before
+  /// The odometry from the pose before to this pose.
+  const OdometryMeasurement& odometry_to(PoseId id) const { return odometry_[id]; }
   const BearingMeasurement& bearing(BearingId id) const { return bearings_[id]; }
   BearingId first_bearing_of(PoseId id) const {
     return id < poses_.size() ? poses_[id].first_bearing : bearings_.size();
   }
   LandmarkId landmark_of(BearingId id) const { return links_[id].landmark; }
-  /// How high a landmark is above the camera [m]; NaN when no elevation of it was measured, or it is no point.
+  /// Height of the landmark above the camera [m]; NaN when no elevation of the landmark was measured or the landmark is
+  /// no point (rho <= 0).
   double height_m(LandmarkId id) const;
-  /// Squared, in standard deviations, as of the last evaluate(); 0 when it is of no landmark. Of the azimuth, as all
-  /// that is said of bearings here unless elevations are named.
+  /// Squared residual of the azimuth in standard deviations, as of the last evaluate(); 0 when the bearing belongs to
+  /// no landmark. Everything said of bearings here refers to the azimuth unless elevations are named.
   double chi2_of(BearingId id) const;
-  double elevation_chi2_of(BearingId id) const;  ///< likewise; 0 when none was measured
-  /// d(residual) / d(alpha, rho) of its landmark, in standard deviations, as of the last evaluate().
+  double elevation_chi2_of(BearingId id) const;  ///< squared residual of the elevation; 0: not measured
+  /// d(residual of the azimuth) / d(alpha, rho of its landmark), in standard deviations, as of the last evaluate().
   const Eigen::Vector2d& by_landmark_of(BearingId id) const { return links_[id].by_landmark; }
-  double odometry_chi2(PoseId id) const { return 2.0 * poses_[id].energy; }  ///< likewise, of odometry_to()
+  double odometry_chi2(PoseId id) const { return 2.0 * poses_[id].energy; }  ///< squared residual of odometry_to()
   const Calibration& calibration() const { return calibration_; }
-  /// Where the camera is when the robot is there, by the calibration of the moment; turned as the robot. And back.
+  /// The camera's position for a robot pose, by the current calibration, with the robot's heading (the camera's yaw is
+  /// not included). body_at() is the inverse.
   SmoothedPose camera_at(const SmoothedPose& body) const {
     return body.moved({calibration_[calibration::camera_x], calibration_[calibration::camera_y], 0.0});
   }
@@ -101,56 +107,62 @@ class BearingGraph : public NormalEquations {
 
   Block block_of_pose(PoseId id) const { return poses_[id].block; }
   Block block_of_landmark(LandmarkId id) const { return landmarks_[id].block; }
-  /// Of the height of a landmark that elevations were measured of.
+  /// Block of the height of a landmark that has elevations.
   Block block_of_height(LandmarkId id) const { return heights_[landmarks_[id].height].block; }
-  /// How many bearings that are of it have an elevation.
+  /// Number of the landmark's bearings that have an elevation.
   int elevations_of(LandmarkId id) const {
     return landmarks_[id].height == kNoHeight ? 0 : heights_[landmarks_[id].height].elevations;
   }
-  /// Whether a bearing that is of a landmark says something of its height.
+  /// The measured elevation of a bearing that has one (has_elevation()).
   const MeasuredElevation& elevation(BearingId id) const { return elevations_[bearings_[id].elevation].measured; }
   bool has_elevation(BearingId id) const { return bearings_[id].elevation != kNoElevation; }
   static constexpr Block kCalibrationBlock = 0;
   Block blocks() const { return blocks_.size(); }
-  /// Of one of calibration::; negative: it is no unknown. The calibration's rows are the first ones.
+  /// Row of the value `which` of calibration:: in the normal matrix; negative when the value is no unknown. The
+  /// calibration's rows are the first ones.
   int calibration_row(int which) const { return calibration_row_[static_cast<std::size_t>(which)]; }
 
-  /// Makes residuals and derivatives those of the moment, where something has changed, and sums them up.
+  /// Recomputes residuals and derivatives where an unknown or the data association has changed, and sums energy and
+  /// gradient.
   void evaluate();
   double energy() const { return energy_; }
-  /// Half the squared residuals, of each bearing at most `most`, and the priors': whatever the kernel, as of the last
-  /// evaluate().
+  /// The energy with each azimuth's kernel replaced by half its squared residual, at most `most`, so that the value
+  /// does not depend on the azimuths' kernel. As of the last evaluate().
   double bounded_energy(double most) const;
-  /// Residuals of one kind in standard deviations, as of the last evaluate(), weighted by the kernel.
+  /// Sum of the squared residuals of one kind in standard deviations, weighted by the kernel, as of the last
+  /// evaluate().
   struct Misfit {
     double chi2 = 0.0;
     int residuals = 0;
   };
   Misfit misfit_of_bearings() const;
-  /// Of what it says over so many poses at a time: errors that are small from image to image and of one sign add up.
+  /// Misfit of odometry composed over `stride` poses at a time. Errors that are small from image to image but of one
+  /// sign add up over longer ways.
   Misfit misfit_of_odometry(int stride) const;
-  /// Derivatives of those residuals, each with a sign drawn by `seed`, summed: v, whose v^T H^-1 v is on average how
-  /// many of the residuals the unknowns have taken up (Hutchinson's estimate of a trace).
+  /// Sum v of the derivatives of the residuals that misfit_of_bearings() or misfit_of_odometry() counts, each with a
+  /// random sign drawn by `seed`. The mean of v^T H^-1 v is the number of residuals that the unknowns take up
+  /// (Hutchinson's trace estimate).
   Eigen::VectorXd signed_sum_of_bearings(std::uint64_t seed) const;
   Eigen::VectorXd signed_sum_of_odometry(std::uint64_t seed, int stride) const;
-  /// From the next evaluate() on.
+  /// Sets the robust kernel; it takes effect with the next evaluate().
   void set_kernel(RobustKernel kernel, double width);
   const Eigen::VectorXd& gradient() const { return gradient_; }
-  /// Pairs of blocks with a term whose derivatives are no longer those of the factor; of one alone when they are the
-  /// same. Emptied by the call.
+  /// Returns and clears the pairs of blocks that share a term whose derivatives have moved away from those in the
+  /// factor. A pair of twice the same block stands for a term of that block alone.
   std::vector<std::pair<Block, Block>> take_stale() { return std::exchange(stale_, {}); }
 
-  /// All unknowns.
+  /// Values of all unknowns.
   struct Values {
     std::vector<SmoothedPose> poses;
     std::vector<SmoothedLandmark> landmarks;
-    std::vector<double> tangents;  ///< of each landmark: its height times rho; NaN: it has none
+    std::vector<double> tangents;  ///< per landmark, height times rho; NaN: the landmark has no height
     Calibration calibration = Calibration::Zero();
   };
   Values values() const;
-  /// Puts all of them elsewhere. Poses and landmarks must be as many; the first pose stays where it is.
+  /// Sets poses, landmarks and calibration to `values`, which must have as many poses and landmarks as the graph. The
+  /// first pose and the heights stay as they are.
   void begin_at(const Values& values);
-  /// What a step has moved, as it was before.
+  /// The values of the moved unknowns before a step, for move_back().
   struct Moved {
     std::vector<std::pair<PoseId, SmoothedPose>> poses;
     struct Landmark {
@@ -159,10 +171,11 @@ class BearingGraph : public NormalEquations {
       double prior_mean_per_m;
     };
     std::vector<Landmark> landmarks;
-    std::vector<double> tangents;  ///< of all heights
+    std::vector<double> tangents;  ///< tangents of all heights
     Calibration calibration = Calibration::Zero();
   };
-  /// What would go less far than `stands_below` stays, and all its terms with it.
+  /// Applies `step`. A pose or landmark stays when all components of its step are below `stands_below` [m, rad, 1/m];
+  /// its terms need no new evaluation then.
   Moved move(const Eigen::VectorXd& step, double stands_below = 0.0);
   void move_back(const Moved& moved);
 
@@ -183,57 +196,60 @@ class BearingGraph : public NormalEquations {
   struct PoseEntry {
     SmoothedPose state;
     Block block = 0;
-    BearingId first_bearing = 0;  // up to that of the next pose
+    BearingId first_bearing = 0;  // the bearings of the pose end before the next pose's first
     bool moved = true;
-    // Of the odometry from the pose before
+    // The odometry term from the pose before to this pose.
     Eigen::Vector3d relative = Eigen::Vector3d::Zero();
-    // Derivatives of the energy: by `relative`, by the pose before, by this one
+    // Derivatives of the term's energy by `relative`, by the pose before and by this pose.
     Eigen::Vector3d pull = Eigen::Vector3d::Zero(), pull_start = pull, pull_end = pull;
-    Eigen::Vector3d factor_relative = Eigen::Vector3d::Zero();  // as in the factor
+    Eigen::Vector3d factor_relative = Eigen::Vector3d::Zero();  // `relative` at the last factorisation
     double energy = 0.0;
   };
   struct LandmarkEntry {
     SmoothedLandmark state;
     Block block = 0;
     bool moved = true;
-    bool known = false;  // from before
+    bool known = false;  // comes from a saved map
     bool prior = true;
-    double prior_mean_per_m = 0.0;  // of rho, in the chart of the moment
+    double prior_mean_per_m = 0.0;  // prior mean of rho in the current chart
     std::int32_t height = kNoHeight;
     std::vector<BearingId> bearings;
   };
   static constexpr std::int32_t kNoHeight = -1;
-  /// A height is an unknown of its own, since few landmarks have one.
+  /// Height of a landmark above the camera. A height has a block of its own, since few landmarks have one.
   struct HeightEntry {
     LandmarkId landmark = kOfNothing;
     Block block = 0;
-    double tangent = 0.0;  // times the distance: the height
-    int elevations = 0;    // that were measured of it
+    double tangent = 0.0;  // height times rho
+    int elevations = 0;    // number of the landmark's bearings with an elevation
   };
-  /// A second row of a bearing; derivatives and residual in standard deviations.
+  /// The elevation of a bearing, a second residual beside its azimuth. Derivatives and residual are in standard
+  /// deviations.
   struct ElevationEntry {
     MeasuredElevation measured;
     double residual = 0.0, weight = 0.0, energy = 0.0, by_tangent = 0.0;
     Eigen::Vector3d by_pose = Eigen::Vector3d::Zero();
     Eigen::Vector2d by_landmark = Eigen::Vector2d::Zero();
-    // As in the factor.
+    // Values at the last factorisation.
     double factor_weight = 0.0;
     Eigen::Matrix<double, 5, 1> factor_derivatives = Eigen::Matrix<double, 5, 1>::Zero();
   };
-  /// Which landmark a bearing is of, and what follows; derivatives and residual in standard deviations.
+  /// The data association of a bearing, and the term of its azimuth. Derivatives and residual are in standard
+  /// deviations.
   struct Link {
     LandmarkId landmark = kOfNothing;
     bool changed = false;
     double residual = 0.0, weight = 0.0, energy = 0.0;
     Eigen::Vector3d by_pose = Eigen::Vector3d::Zero();
     Eigen::Vector2d by_landmark = Eigen::Vector2d::Zero();
-    // As in the factor
+    // Values at the last factorisation.
     float factor_weight = 0.0F;
-    std::array<float, 4> factor_derivatives{};  // by position and landmark
+    std::array<float, 4> factor_derivatives{};  // by position (2) and landmark (2)
   };
 
   static constexpr std::int32_t kForgotten = -1;
-  // Times as wide, and so no rival of any bearing: nearer than 0.2 m to where it was seen from is still unlikely.
+  // Factor on the prior's standard deviation for a prior that is off. So wide a prior competes with no bearing, yet it
+  // still makes it unlikely that a landmark lies nearer than 0.2 m to the place where it was seen first.
   static constexpr double kTraceOfPrior_sigmas = 25.0;
 
   OdometryMeasurement odometry_over(PoseId start, PoseId end) const;
@@ -244,12 +260,13 @@ class BearingGraph : public NormalEquations {
   void list_remembered_blocks();
   BearingId end_of_bearings(PoseId pose) const { return first_bearing_of(pose + 1); }
   bool calibrates(int which) const { return calibration_row(which) >= 0; }
-  /// By what the azimuth is more than was measured, by the calibration of the moment.
+  /// The azimuth in the robot's frame minus the measured one, by the current calibration of the camera's yaw and of the
+  /// image's centre.
   double camera_error_rad(const BearingMeasurement& measured) const {
     return calibration_[calibration::yaw] + measured.by_centre.dot(calibration_.segment<2>(calibration::centre_x));
   }
   using ByCamera = Eigen::Matrix<double, kCameraCalibrations, 1>;
-  /// Of a bearing's residual, in standard deviations.
+  /// d(residual of the azimuth) / d(camera calibration), in standard deviations.
   static ByCamera by_camera(const Link& link, const BearingMeasurement& measured) {
     const double per_sigma = -1.0 / measured.sigma_rad;
     ByCamera by;
@@ -271,7 +288,7 @@ class BearingGraph : public NormalEquations {
 
   bool is_remembered(Block block) const;
 
-  // Heights.
+  // Terms of elevations, see bearing_graph_heights.cpp.
   void begin_height(BearingId first, LandmarkId landmark);
   void count_elevation(LandmarkId landmark, int more);
   void move_heights(const Eigen::VectorXd& step);
@@ -310,7 +327,7 @@ class BearingGraph : public NormalEquations {
   SharedPages<HeightEntry, 8> heights_;
   SharedPages<ElevationEntry> elevations_;
   std::shared_ptr<const Remembered> remembered_ = std::make_shared<Remembered>();
-  std::vector<Block> remembered_blocks_;  // of its entries, in their order
+  std::vector<Block> remembered_blocks_;  // blocks of the remembered entries, in their order
   int rows_ = 0;
   double energy_ = 0.0;
   Eigen::VectorXd gradient_;

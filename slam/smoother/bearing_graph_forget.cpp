@@ -1,4 +1,4 @@
-// How a bearing graph gets rid of poses.
+// The removal of poses from a bearing graph.
 
 #include <algorithm>
 #include <cassert>
@@ -9,7 +9,7 @@
 
 namespace azimuth {
 
-/// Everything is put together anew, out of what is left.
+/// Rebuilds the graph from the remaining poses.
 void BearingGraph::forget(std::span<const PoseId> poses) {
   const BearingGraph before = *this;
   blocks_ = {};
@@ -25,7 +25,7 @@ void BearingGraph::forget(std::span<const PoseId> poses) {
   for (const PoseId id : poses) pose_now[static_cast<std::size_t>(id)] = kForgotten;
   assert(pose_now.front() != kForgotten && pose_now.back() != kForgotten);
   std::vector<BearingId> bearing_now(static_cast<std::size_t>(before.bearings()), kForgotten);
-  std::optional<OdometryMeasurement> way;  // through poses that are forgotten
+  std::optional<OdometryMeasurement> way;  // odometry through removed poses
   for (Block block = 0; block < before.blocks(); ++block) {
     const auto [kind, id, row] = before.blocks_[block];
     if (kind == Kind::calibration) {
@@ -59,7 +59,7 @@ void BearingGraph::forget(std::span<const PoseId> poses) {
   if (!remembered_blocks_.empty()) keep_remembered(pose_now);
 }
 
-/// As the next one. `way`: from the pose before, when that is another one now.
+/// Appends a pose of `before`. `way` is the composed odometry when the pose before it was removed.
 void BearingGraph::keep_pose(const BearingGraph& before, PoseId id, const std::optional<OdometryMeasurement>& way,
                              std::vector<BearingId>& bearing_now) {
   PoseEntry pose = before.poses_[id];

@@ -1,4 +1,4 @@
-// What elevations say: the second row of bearings that have one, and the heights of landmarks above the camera.
+// The terms of elevations, the second residual of some bearings, and the landmarks' heights above the camera.
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace azimuth {
 
-/// As its first elevation has it, if the landmark is where it is thought to be.
+/// Starts a height from the first elevation and the landmark's current position.
 void BearingGraph::begin_height(BearingId first, LandmarkId landmark) {
   const SmoothedLandmark& state = landmarks_[landmark].state;
   const Eigen::Vector2d to_chart = state.p_map_chart - pose(bearings_[first].pose).position();
@@ -45,7 +45,7 @@ void BearingGraph::move_heights(const Eigen::VectorXd& step) {
   }
 }
 
-/// After the azimuth's.
+/// Must run after the azimuth of the bearing was evaluated.
 void BearingGraph::evaluate_elevation(BearingId id) {
   const BearingMeasurement& bearing = bearings_[id];
   const LandmarkEntry& landmark = landmarks_[links_[id].landmark];

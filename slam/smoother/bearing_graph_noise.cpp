@@ -1,4 +1,4 @@
-// How far bearings and odometry are from what they were expected to say, and how much of that the unknowns took up.
+// The misfit of bearings and odometry, and the share of their residuals that the unknowns take up.
 
 #include <cassert>
 #include <cmath>
@@ -8,7 +8,7 @@
 namespace azimuth {
 namespace {
 
-/// +1 or -1, the same on every machine: the last bit of splitmix64.
+/// Returns +1 or -1, the last bit of splitmix64, equal on every machine.
 double sign_of(std::uint64_t seed, std::int32_t id, int part) {
   std::uint64_t z =
       0x9e3779b97f4a7c15U * (seed + 1) + 4U * static_cast<std::uint64_t>(id) + static_cast<unsigned>(part);
@@ -36,7 +36,7 @@ void BearingGraph::scale_noise(double bearings, double odometry) {
 BearingGraph::Misfit BearingGraph::misfit_of_bearings() const {
   Misfit misfit;
   for (BearingId id = 0; id < bearings_.size(); ++id) {
-    if (landmark_of(id) == kOfNothing || chi2_of(id) >= kScattersChi2) continue;  // of something else
+    if (landmark_of(id) == kOfNothing || chi2_of(id) >= kScattersChi2) continue;  // wrong association
     misfit.chi2 += links_[id].weight * chi2_of(id);
     ++misfit.residuals;
   }

@@ -1,4 +1,4 @@
-// What a bearing graph knows from before: the one term that may be of many unknowns.
+// The joint prior from a saved map: one term of many unknowns.
 
 #include <algorithm>
 #include <cassert>
@@ -9,7 +9,7 @@
 namespace azimuth {
 namespace {
 
-/// Of what is remembered, at an entry: how far the landmark or the pose is off.
+/// The deviation of a landmark or pose from its remembered mean.
 Eigen::Vector2d off_of(const SmoothedLandmark& landmark, const Eigen::Vector2d& mean) {
   return {wrap(landmark.direction_rad - mean.x()), landmark.inverse_distance_per_m - mean.y()};
 }
@@ -86,7 +86,7 @@ void BearingGraph::append_remembered(Block block, std::vector<Block>& out) const
     if (other != block) out.push_back(other);
 }
 
-/// The pose's axes are taken as they were remembered; gradients are exact.
+/// The derivatives use the remembered heading of the pose, so the matrix is constant. The gradient is exact.
 void BearingGraph::add_remembered(Block block, FrontMatrix& front) const {
   const Remembered& known = *remembered_;
   const auto turned = [&](Block of, Eigen::MatrixXd part, bool by_rows) -> Eigen::MatrixXd {

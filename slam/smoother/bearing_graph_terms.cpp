@@ -1,4 +1,4 @@
-// The terms of a bearing graph: residuals, energies and derivatives, and what they add to the normal matrix.
+// The terms of a bearing graph: residuals, energies and derivatives, and their parts of the normal matrix.
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 namespace azimuth {
 namespace {
 
-// A landmark's inverse distance counts in quarters, so that its derivative compares with those by metres and radians.
+// Unit of inverse distance that makes a derivative by rho comparable with those by metres and radians.
 constexpr double kTypicalInverseDistance_per_m = 0.25;
 
 }  // namespace
@@ -63,7 +63,7 @@ void BearingGraph::evaluate_bearing(BearingId id) {
   const PoseEntry& pose = poses_[measured.pose];
   SeenAzimuth seen;
   if (see(camera_at(pose.state), landmarks_[link.landmark].state, settings_.min_distance_m, seen)) {
-    // A robot that turns carries its camera along.
+    // The camera is off the robot's centre of rotation, so a turn of the robot also moves the camera.
     seen.by_pose.z() +=
         seen.by_pose.y() * calibration_[calibration::camera_x] - seen.by_pose.x() * calibration_[calibration::camera_y];
     const double per_sigma = 1.0 / measured.sigma_rad;
@@ -73,15 +73,15 @@ void BearingGraph::evaluate_bearing(BearingId id) {
     link.weight = weight;
     link.by_pose = seen.by_pose * per_sigma;
     link.by_landmark = seen.by_landmark * per_sigma;
-  } else {  // as if there were no bearing
+  } else {  // the bearing has no effect
     link.residual = link.energy = link.weight = 0.0;
   }
   if (is_stale(link, measured)) stale_.emplace_back(pose.block, landmarks_[link.landmark].block);
   if (has_elevation(id)) evaluate_elevation(id);
 }
 
-/// The derivatives follow from how the two poses lie to each other. An error of that tells something wrong of a turn of
-/// the map; per standard deviation of the odometry it does not matter.
+/// The derivatives depend on the relative pose only. A wrong turn in them would misstate a turn of the map, so its
+/// threshold is absolute; an error in position only matters per standard deviation of the odometry.
 bool BearingGraph::is_stale(const PoseEntry& pose, const OdometryMeasurement& measured) const {
   const Eigen::Vector3d changed = pose.relative - pose.factor_relative;
   const double turned = std::abs(changed.z()) / settings_.relinearise_beyond;
@@ -156,7 +156,7 @@ void BearingGraph::sum_priors() {
 
 void BearingGraph::append_neighbours(Block block, std::vector<Block>& out) const {
   const BlockEntry& entry = blocks_[block];
-  if (entry.kind == Kind::calibration) return;  // all others name it
+  if (entry.kind == Kind::calibration) return;  // all other blocks list it as a neighbour
   if (is_remembered(block)) append_remembered(block, out);
   if (entry.kind == Kind::landmark) {
     for (const BearingId bearing : landmarks_[entry.id].bearings) out.push_back(poses_[bearings_[bearing].pose].block);
@@ -190,7 +190,8 @@ void BearingGraph::add_terms(Block block, FrontMatrix& front) {
   }
 }
 
-/// Whether a term of both begins with the block at `row`; what is no unknown is not in the matrix.
+/// Whether `block` comes after local row `row`, so that a term of both belongs to the block at `row`. A block that is
+/// no unknown is not in the matrix and counts as later.
 bool BearingGraph::comes_later(const FrontMatrix& front, Block block, int row) const {
   return size(block) == 0 || front.row_of(first_row(block)) > row;
 }

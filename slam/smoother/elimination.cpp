@@ -28,7 +28,7 @@ void EliminationGraph::tie_all(std::span<const int> nodes) {
 }
 
 Elimination EliminationGraph::eliminate(std::span<const std::uint8_t> ranks) {
-  // Entries that are out of date stay in the queue, and are passed over when they come up.
+  // Outdated entries stay in the queue and are skipped when they come up.
   using Entry = std::tuple<std::uint8_t, int, int>;  // rank, cost, node
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> next;
   std::vector<int> costs(nodes_), heights(nodes_);
@@ -62,7 +62,7 @@ Elimination EliminationGraph::eliminate(std::span<const std::uint8_t> ranks) {
   return elimination;
 }
 
-/// Takes the node out and ties together those it was tied to.
+/// Removes the node and ties its neighbours to each other.
 void EliminationGraph::join(int node, const std::vector<int>& tied) {
   const Word* const together = row(node);
   for (const int other : tied) {
@@ -90,9 +90,9 @@ std::vector<int> EliminationGraph::tied_to(int node) {
 namespace {
 
 constexpr int kSmallFront_rows = 16;
-constexpr std::size_t kZerosOfSmallFront = 3;  // nodes of the front that a node is not tied to
-// A front of one pose has three columns to eliminate and hundreds of numbers to hand over: with some zeros more,
-// several do so together.
+constexpr std::size_t kZerosOfSmallFront = 3;  // number of nodes in the front that a node is not tied to
+// A front of one pose eliminates three columns but passes on hundreds of numbers. Several poses share a front at the
+// cost of some more zeros.
 constexpr int kMostTogether_rows = 18;
 constexpr double kZerosTogether = 0.2;  // share of the front's rows
 
@@ -102,7 +102,8 @@ int rows_of(std::span<const int> nodes, std::span<const int> sizes) {
   return rows;
 }
 
-/// Whether a node tied to `behind` is better eliminated in the front of the first of those than in one of its own.
+/// Whether a node with the later neighbours `behind` should join the front `above`, which eliminates the first of them,
+/// rather than get a front of its own.
 bool goes_well_with(const FrontDraft& above, std::span<const int> behind, std::span<const int> sizes) {
   const std::size_t zeros = above.eliminated.size() + above.behind.size() - behind.size();
   if (zeros == 0) return true;
@@ -113,10 +114,11 @@ bool goes_well_with(const FrontDraft& above, std::span<const int> behind, std::s
 
 }  // namespace
 
-/// From the last one backwards: each node joins the front of the first of those behind it, or begins one below that.
+/// Goes backwards through the order: each node joins the front of its first later neighbour, or starts a front below
+/// that front.
 std::vector<FrontDraft> group_into_fronts(const Elimination& elimination, std::span<const int> sizes) {
   const std::size_t count = elimination.order.size();
-  std::vector<std::size_t> turns(count);  // of each node
+  std::vector<std::size_t> turns(count);  // position of each node in the order
   for (std::size_t turn = 0; turn < count; ++turn) turns[static_cast<std::size_t>(elimination.order[turn])] = turn;
   const auto by_turn = [&turns](int node) { return turns[static_cast<std::size_t>(node)]; };
 
@@ -131,7 +133,7 @@ std::vector<FrontDraft> group_into_fronts(const Elimination& elimination, std::s
       parent = front_of[static_cast<std::size_t>(*std::ranges::min_element(behind, {}, by_turn))];
       FrontDraft& above = fronts[static_cast<std::size_t>(parent)];
       if (goes_well_with(above, behind, sizes)) {
-        above.eliminated.push_back(node);  // backwards, for now
+        above.eliminated.push_back(node);  // in reverse order, corrected below
         mine = parent;
         continue;
       }

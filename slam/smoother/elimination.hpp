@@ -6,16 +6,19 @@
 
 namespace azimuth {
 
-/// In which order unknowns are eliminated, and what each is tied to by then.
+/// The order of elimination of the unknowns, and the neighbours that each one has when it is eliminated.
 struct Elimination {
-  std::vector<int> order;                ///< nodes, the first to go first
-  std::vector<std::vector<int>> behind;  ///< of each in that order: the nodes tied to it that go later, ascending
+  std::vector<int> order;                ///< nodes in the order of elimination
+  std::vector<std::vector<int>> behind;  ///< per position in that order: the neighbours eliminated later, ascending
 };
 
-/// Which unknowns share a term. Eliminating one ties all those together that it was tied to (fill), so the order
-/// matters: whatever has the fewest ties goes next (minimum degree, exact), among nodes of the lowest rank. By that
-/// alone a long chain is eaten up from its ends, and what changes somewhere in it has a long way to the node that goes
-/// last; so a node that others have to wait for, one after another, goes later: so many levels count as a tie more.
+/// The graph of unknowns (nodes) in which two nodes are tied when they share a term. Eliminating a node ties all its
+/// neighbours to each other (fill), so the order matters. The node with the fewest ties goes next (exact minimum
+/// degree), among the nodes of the lowest rank.
+///
+/// Minimum degree alone eliminates a long chain from its ends, and a change in the middle then has a long way to the
+/// root. Therefore a node that has to wait for others, one after another, is delayed: kLevelsForATie levels of waiting
+/// count as one more tie.
 ///
 /// Thread contract: thread-bound.
 class EliminationGraph {
@@ -27,7 +30,8 @@ class EliminationGraph {
   void tie(int a, int b);
   void tie_all(std::span<const int> nodes);
 
-  /// `ranks`: one for each node; of two nodes that of the lower rank goes first. Uses the graph up.
+  /// Computes the order. `ranks` has one entry per node; a node of a lower rank is eliminated first. The call destroys
+  /// the graph.
   Elimination eliminate(std::span<const std::uint8_t> ranks);
 
  private:
@@ -42,19 +46,19 @@ class EliminationGraph {
   void join(int node, const std::vector<int>& tied);
 
   std::size_t nodes_, words_;
-  std::vector<Word> bits_;  // row by row, symmetric, the diagonal empty
+  std::vector<Word> bits_;  // adjacency matrix, row by row: symmetric, diagonal empty
 };
 
-/// Nodes that are eliminated in one dense matrix.
+/// A front: nodes that are eliminated together in one dense matrix.
 struct FrontDraft {
   static constexpr int kRoot = -1;
-  std::vector<int> eliminated, behind;  ///< in the order of elimination; those tied to one of them that go later
+  std::vector<int> eliminated, behind;  ///< nodes in the order of elimination; their neighbours eliminated later
   int parent = kRoot;                   ///< the front that eliminates the first of `behind`
 };
 
-/// Fronts of an elimination, parents before children. Nodes that are tied to the same ones share a front, and so do few
-/// rows, since a front has a cost of its own: some zeros in it are cheaper than another one. `sizes`: rows of each
-/// node.
+/// Groups the nodes of an elimination into fronts, parents before children. Nodes with the same neighbours share a
+/// front. Nodes with few rows share one as well, because a few zeros in a front cost less than another front. `sizes`
+/// has the number of rows of each node.
 std::vector<FrontDraft> group_into_fronts(const Elimination& elimination, std::span<const int> sizes);
 
 }  // namespace azimuth

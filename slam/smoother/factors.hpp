@@ -1,8 +1,9 @@
 #pragma once
-// What odometry and bearings say of poses and landmarks, with derivatives (SPEC VI.18).
+// The measurement functions of odometry and bearings, with derivatives (mathematics VI.18).
 //
-// A pose moves by (d along its own axes, turn): p <- p + R(h) d, h <- h + turn. Derivatives are by that, so those of
-// odometry depend on how two poses lie to each other alone, and turning the whole map changes none.
+// A pose moves by (d along its own axes, turn): p <- p + R(h) d, h <- h + turn. Derivatives are with respect to this
+// step. The derivatives of odometry therefore depend only on the relative pose, and turning the whole map changes none
+// of them.
 
 #include <Eigen/Core>
 #include <cmath>
@@ -12,7 +13,7 @@
 
 namespace azimuth {
 
-/// A pose with what every factor on it needs.
+/// A pose with the cosine and sine of its heading, which every factor needs.
 struct SmoothedPose {
   Pose2 T_map_body;
   Eigen::Vector2d forwards{1.0, 0.0};  ///< (cos, sin) of the heading
@@ -21,7 +22,7 @@ struct SmoothedPose {
   explicit SmoothedPose(const Pose2& pose)
       : T_map_body(pose), forwards(std::cos(pose.heading_rad), std::sin(pose.heading_rad)) {}
 
-  /// A vector of the map along the body's axes.
+  /// Turns a vector from the map's axes to the body's axes.
   Eigen::Vector2d to_body(const Eigen::Vector2d& v_map) const {
     return {forwards.x() * v_map.x() + forwards.y() * v_map.y(), forwards.x() * v_map.y() - forwards.y() * v_map.x()};
   }
@@ -35,8 +36,8 @@ struct SmoothedPose {
   }
 };
 
-/// A landmark at c + u(alpha) / rho. c is no unknown, but where it was seen from first; rho <= 0 is at infinity or
-/// beyond, and as good as any.
+/// A landmark at c + u(alpha) / rho. The chart origin c is no unknown: it is the place from which the landmark was seen
+/// first. rho <= 0 means at infinity or beyond, and is a valid value.
 struct SmoothedLandmark {
   Eigen::Vector2d p_map_chart = Eigen::Vector2d::Zero();  ///< c
   double direction_rad = 0.0;                             ///< alpha, in the map
@@ -53,14 +54,14 @@ struct SmoothedLandmark {
   SmoothedLandmark moved(const Eigen::Vector2d& step) const {
     return {p_map_chart, direction_rad + step.x(), inverse_distance_per_m + step.y()};
   }
-  /// The same point with c moved by `shift_m`, to first order: what turns or goes elsewhere together with its
-  /// surroundings stays as it is as seen from there.
+  /// The same point, to first order, with the chart origin c moved by `shift_m`. When the landmark and its surroundings
+  /// move together, the bearings as seen from the chart origin do not change.
   SmoothedLandmark seen_from(const Eigen::Vector2d& shift_m) const {
     const double rho = inverse_distance_per_m;
     const double across_m = direction.x() * shift_m.y() - direction.y() * shift_m.x();
     return {p_map_chart + shift_m, direction_rad - rho * across_m, rho + rho * rho * direction.dot(shift_m)};
   }
-  /// Whether it is somewhere: neither at infinity nor beyond.
+  /// Whether the landmark has a finite position.
   bool is_point() const { return inverse_distance_per_m > 0.0; }
   Eigen::Vector2d p_map() const { return p_map_chart + direction / inverse_distance_per_m; }
   /// d(p_map) / d(alpha, rho)
@@ -73,15 +74,16 @@ struct SmoothedLandmark {
   }
 };
 
-/// The azimuth a landmark is seen under, with derivatives.
+/// The predicted azimuth of a landmark, with derivatives.
 struct SeenAzimuth {
   double azimuth_rad = 0.0;                               ///< from the heading, not wrapped
   Eigen::Vector3d by_pose = Eigen::Vector3d::Zero();      ///< by (along, left, turn)
   Eigen::Vector2d by_landmark = Eigen::Vector2d::Zero();  ///< by (alpha, rho)
 };
 
-/// B = rho (c - p) + u(alpha), azimuth = atan2(B) - h: no division, so nothing happens at rho = 0. False, with `out` as
-/// it was, when the landmark is nearer than `min_distance_m`, where the model breaks down.
+/// Computes azimuth = atan2(B) - h with B = rho (c - p) + u(alpha). There is no division by rho, so rho = 0 needs no
+/// special case. Returns false and leaves `out` unchanged when the landmark is nearer than `min_distance_m`, where the
+/// model breaks down.
 inline bool see(const SmoothedPose& pose, const SmoothedLandmark& landmark, double min_distance_m, SeenAzimuth& out) {
   const double rho = landmark.inverse_distance_per_m;
   const Eigen::Vector2d to_chart = landmark.p_map_chart - pose.T_map_body.position();
@@ -97,7 +99,7 @@ inline bool see(const SmoothedPose& pose, const SmoothedLandmark& landmark, doub
   return true;
 }
 
-/// How high above the horizontal a landmark is seen, with derivatives.
+/// The predicted elevation of a landmark above the horizontal, with derivatives.
 struct SeenElevation {
   double elevation_rad = 0.0;
   Eigen::Vector3d by_pose = Eigen::Vector3d::Zero();      ///< by (along, left, turn)
@@ -105,8 +107,8 @@ struct SeenElevation {
   double by_tangent = 0.0;
 };
 
-/// tau is height times rho, the tangent of the elevation as seen from c: tan(elevation) = tau / |B|, with B as above.
-/// False, with `out` as it was, where the azimuth is none either.
+/// Computes tan(elevation) = tau / |B|, with B as in see(). `tangent` is tau = height * rho, the tangent of the
+/// elevation as seen from the chart origin. Returns false and leaves `out` unchanged under the same condition as see().
 inline bool see_height(const SmoothedPose& pose, const SmoothedLandmark& landmark, double tangent,
                        double min_distance_m, SeenElevation& out) {
   const double rho = landmark.inverse_distance_per_m;
@@ -124,7 +126,7 @@ inline bool see_height(const SmoothedPose& pose, const SmoothedLandmark& landmar
   return true;
 }
 
-/// How the end of a motion lies to its start, (along, left, turn), with derivatives.
+/// The end of a motion relative to its start, (along, left, turn), with derivatives.
 struct SeenMotion {
   Eigen::Vector3d relative;
   Eigen::Matrix3d by_start, by_end;

@@ -10,8 +10,8 @@ namespace {
 using Eigen::Index;
 using Values = Eigen::Map<Eigen::MatrixXd>;
 
-/// column k of what remains -= L[:, from..to) L[k, from..to)^T, four columns at a time: they are short, and a product
-/// of matrices would spend most of its time on getting ready.
+/// Computes column k -= L[:, from..to) L[k, from..to)^T on the rows from k on, four columns at a time. The columns are
+/// short, so a matrix product would spend most of its time on preparation.
 void reduce_column(Values& values, Index k, Index from, Index to) {
   const Index rows = values.rows() - k;
   const auto below = [&](Index j) { return values.col(j).tail(rows); };
@@ -33,7 +33,8 @@ bool eliminate_small(Values& values, Index eliminated) {
   return true;
 }
 
-/// The same in blocks that stay in the cache: A = [L11; L21] [L11; L21]^T + [0; S].
+/// Gives the result of eliminate_small(), computed in blocks that stay in the cache:
+/// A = [L11; L21] [L11; L21]^T + [0; S].
 bool eliminate_large(Values& values, Index eliminated) {
   Eigen::Ref<Eigen::MatrixXd> top = values.topLeftCorner(eliminated, eliminated);
   if (const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(top); factor.info() != Eigen::Success) return false;
@@ -45,7 +46,7 @@ bool eliminate_large(Values& values, Index eliminated) {
   return true;
 }
 
-// Below this the preparations of a product of matrices take longer than it does.
+// Sizes below which preparing a matrix product takes longer than the product.
 constexpr Index kLarge_columns = 16, kLarge_rows = 48;
 
 }  // namespace
@@ -64,7 +65,7 @@ void hand_over(const FrontShape& child, const std::vector<double>& rest, FrontMa
       values(std::max(*row, *column), std::min(*row, *column)) += *value++;
 }
 
-// Rows lie scattered over the whole vector: they are brought together, solved, and put back.
+// The front's rows are scattered over the whole vector. They are gathered, solved, and written back.
 
 void solve_forwards(const std::vector<int>& rows, const FrontNumbers& numbers, Eigen::Ref<Eigen::MatrixXd> whole,
                     Eigen::VectorXd& local) {

@@ -28,7 +28,8 @@ bool FrontTree::couples(Block a, Block b) const {
   return has(front_a, b) || has(front_b, a);
 }
 
-/// Every front that it stands in is to be shaped anew: those are below the one that eliminates it, without a gap.
+/// Marks every front that holds the block. These fronts form a connected part of the tree below the front that
+/// eliminates the block.
 void FrontTree::remove(Block block) {
   const int own = front_of(block);
   if (own == kNone) return;
@@ -68,10 +69,10 @@ bool FrontTree::factorise(Node& front, NormalEquations& equations, double dampin
   matrix.end(shape.rows);
 
   const bool positive = eliminate_columns(matrix.values(), shape.eliminated);
-  // Numbers that another tree has as well stay as they are.
+  // Numbers shared with another tree must not change.
   if (!front.numbers || front.numbers.use_count() > 1)
     front.numbers = std::make_shared<FrontNumbers>();
-  else  // as in SharedPages::edit()
+  else  // synchronises as in SharedPages::edit()
       [[maybe_unused]]
     const std::shared_ptr<FrontNumbers> alone = front.numbers;
   front.numbers->factor = matrix.values().leftCols(shape.eliminated);

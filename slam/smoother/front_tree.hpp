@@ -12,60 +12,62 @@
 
 namespace azimuth {
 
-/// The Cholesky factor of a sparse normal matrix that grows and changes, as a tree of small dense fronts (SPEC VI.19).
+/// The Cholesky factor of a sparse normal matrix that grows and changes, stored as a tree of small dense fronts
+/// (mathematics VI.19).
 ///
-/// What changes in a term changes the fronts from there to the root; all others stand. When blocks become neighbours
-/// that were not, the blocks of those fronts are put into a new order of elimination. From time to time all of them
-/// are.
+/// A changed term changes the fronts on the path from its front to the root; all other fronts are reused. When two
+/// blocks become neighbours for the first time, the blocks of those fronts get a new order of elimination. From time to
+/// time all blocks are ordered anew.
 ///
-/// Copies share all fronts until one of them makes some anew. Thread contract: thread-bound; copies that share fronts
-/// may be on several threads.
+/// Copies share fronts until one copy recomputes them. Thread contract: thread-bound; copies that share fronts may be
+/// used on several threads.
 class FrontTree {
  public:
-  /// The block is new, or gone, or has a neighbour that it had not.
+  /// Marks a block that is new, that was removed, or that has a new neighbour.
   void restructure(Block block) { changed_.push_back(block); }
-  /// The block is about to be none.
+  /// Announces that the block is about to become no unknown.
   void remove(Block block);
-  /// A term of the two has other values; of one alone when they are the same, or the other is no unknown.
+  /// Marks the term of the two blocks as changed. For a term of one block, both are the same, or the other is no
+  /// unknown.
   void mark_stale(Block a, Block b);
   void mark_all_stale();
-  /// Whether a term of the two would find its place as the tree is.
+  /// Whether the current tree has a front that holds both blocks, so that a term between them fits in.
   bool couples(Block a, Block b) const;
 
-  /// Makes anew what is marked, and what follows from it. With `damping` d the diagonal of the matrix is (1 + d) of
-  /// what it is; such a tree is for one step. False: the matrix is not positive definite.
+  /// Recomputes the marked fronts and those above them. With `damping` d, the diagonal of the matrix is multiplied by
+  /// (1 + d); such a tree serves for one step only. Returns false when the matrix is not positive definite.
   bool update(NormalEquations& equations, double damping = 0.0);
 
-  /// x of H x = b, in place; entries of rows unused are left alone.
+  /// Solves H x = b in place. Entries of unused rows stay unchanged.
   void solve(Eigen::VectorXd& b) const {
     forwards(b);
     backwards(b);
   }
-  /// The first half, y of L y = b: y^T y = b^T H^-1 b. What would make a y below `negligible` is taken as zero: fronts
-  /// that have nothing else are passed over.
+  /// The first half of solve(): solves L y = b in place, so that y^T y = b^T H^-1 b. Entries of y below `negligible`
+  /// are set to zero, and fronts without other entries are skipped.
   void forwards(Eigen::VectorXd& b, double negligible = 0.0) const;
-  /// The second half, x of L^T x = y. Fronts below which nothing is pulled, and above which no x is above `negligible`,
-  /// are passed over: theirs is zero.
+  /// The second half of solve(): solves L^T x = y in place. A front is skipped when its own entries of y are all zero
+  /// and no entry of x above the front exceeds `negligible`; the entries of x of a skipped front are zero.
   void backwards(Eigen::VectorXd& y, double negligible = 0.0) const;
-  /// The blocks' joint covariance, (H^-1) of their rows, in their order.
+  /// Joint covariance of the blocks: the part of H^-1 that belongs to their rows, in the given order.
   Eigen::MatrixXd covariance(std::span<const Block> blocks, const NormalEquations& equations) const;
 
   std::size_t fronts() const { return postorder_.size(); }
   std::size_t factor_entries() const;
-  /// Fronts made anew by the last update().
+  /// Number of fronts recomputed by the last update().
   std::size_t updated() const { return updated_; }
-  std::size_t restructured() const { return restructured_; }  ///< blocks ordered anew by the last update()
+  std::size_t restructured() const { return restructured_; }  ///< number of blocks ordered anew by the last update()
 
  private:
   static constexpr int kNone = -1;
   struct Node {
-    std::shared_ptr<const FrontShape> shape;  // null: free
-    std::shared_ptr<FrontNumbers> numbers;    // not changed while another tree has them, too
+    std::shared_ptr<const FrontShape> shape;  // null: the node is unused
+    std::shared_ptr<FrontNumbers> numbers;    // copied before a change when another tree shares them
     int parent = kNone;
-    int turn = 0;  // in the postorder
+    int turn = 0;  // position in the postorder
     bool stale = true;
   };
-  /// Of no meaning between two calls, so copies do without.
+  /// Temporary storage, which copies of the tree do not copy.
   struct Scratch {
     Scratch() = default;
     Scratch(const Scratch& /*other*/) noexcept {}
@@ -97,12 +99,12 @@ class FrontTree {
 
   std::vector<Node> nodes_;
   std::vector<int> free_, postorder_;
-  std::vector<int> front_of_;          // of each block: the front that eliminates it
-  std::vector<std::int64_t> turn_of_;  // of each block: a lower one is eliminated before
+  std::vector<int> front_of_;          // per block, the front that eliminates it
+  std::vector<std::int64_t> turn_of_;  // per block, its place in the order of elimination
   std::int64_t turns_ = 0;
-  std::vector<Block> changed_;  // since the last update
-  std::size_t blocks_ = 0;      // in the tree
-  std::size_t ordered_ = 0;     // of these, when all were ordered last
+  std::vector<Block> changed_;  // marked since the last update
+  std::size_t blocks_ = 0;      // number of blocks in the tree
+  std::size_t ordered_ = 0;     // number of blocks when all were last ordered anew
   std::size_t updated_ = 0, restructured_ = 0;
   bool valid_ = true;
   Scratch scratch_;

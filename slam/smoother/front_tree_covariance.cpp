@@ -1,4 +1,4 @@
-// Covariances of some blocks, from the factor.
+// Joint covariances of some blocks, computed from the factor.
 
 #include <algorithm>
 
@@ -8,9 +8,9 @@ namespace azimuth {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// The columns E of the identity that belong to the blocks. Fronts are visited children first, so what lies below one
-/// of them comes together: with the columns in that order, those of L^-1 E that are not zero in a front stand side by
-/// side.
+/// The columns E of the identity that belong to the blocks. They are sorted by the order in which the fronts are
+/// visited (children first). All columns below a front are then adjacent, so the nonzero columns of L^-1 E in a front
+/// form one range.
 class FrontTree::Columns {
  public:
   Columns(const FrontTree& tree, std::span<const Block> blocks, const NormalEquations& equations)
@@ -34,13 +34,14 @@ class FrontTree::Columns {
   const Range& in_front(int at) const { return ranges_[static_cast<std::size_t>(at)]; }
   Eigen::Index place_of(int row) const { return place_of_row_[static_cast<std::size_t>(row)]; }
 
-  /// E, of the rows that fronts with something in them have.
+  /// E, restricted to the rows of fronts that have nonzero columns.
   RowMajor identity() const {
     RowMajor E = RowMajor::Zero(rows_, count());
     for (std::size_t i = 0; i < columns_.size(); ++i) E(place_of(columns_[i].row), static_cast<Eigen::Index>(i)) = 1.0;
     return E;
   }
-  /// The whole of a symmetric matrix, given as the lower triangle of the columns side by side, as they were asked for.
+  /// The full symmetric matrix in the order in which the blocks were asked for, from the lower triangle in sorted
+  /// order.
   Eigen::MatrixXd as_asked(const Eigen::MatrixXd& sorted) const {
     Eigen::MatrixXd P(count(), count());
     for (std::size_t j = 0; j < columns_.size(); ++j)
@@ -53,12 +54,12 @@ class FrontTree::Columns {
 
  private:
   struct Column {
-    int visit = 0;  // of the front that eliminates its row
+    int visit = 0;  // visit of the front that eliminates its row
     int row = 0;
     Eigen::Index asked = 0;
   };
 
-  /// A front has what those below it have, and its own.
+  /// Finds each front's range of columns: those of the fronts below, and its own.
   void find_ranges(const FrontTree& tree) {
     std::vector<Eigen::Index> lowest(ranges_.size(), count());
     Eigen::Index column = 0;
@@ -78,12 +79,12 @@ class FrontTree::Columns {
   }
 
   std::vector<Column> columns_;
-  std::vector<Range> ranges_;  // of each node
+  std::vector<Range> ranges_;  // per node
   std::vector<int> place_of_row_;
   int rows_ = 0;
 };
 
-/// Children before parents.
+/// The fronts on the paths from the blocks to the root, children before parents.
 std::vector<int> FrontTree::way_to_root(std::span<const Block> blocks) const {
   std::vector<char> is_on_it(nodes_.size());
   std::vector<int> way;
@@ -96,8 +97,8 @@ std::vector<int> FrontTree::way_to_root(std::span<const Block> blocks) const {
   return way;
 }
 
-/// With H = L L^T and E the columns of the identity that belong to the blocks, E^T H^-1 E = (L^-1 E)^T (L^-1 E), and
-/// L^-1 E is zero but between these blocks and the root: of other rows there are none in what follows.
+/// Computes E^T H^-1 E = (L^-1 E)^T (L^-1 E), with H = L L^T and E the columns of the identity that belong to the
+/// blocks. L^-1 E is zero except on the paths from these blocks to the root, so only those rows are stored.
 Eigen::MatrixXd FrontTree::covariance_of_few(std::span<const Block> blocks, const NormalEquations& equations) const {
   const std::vector<int> way = way_to_root(blocks);
   std::vector<int> place_of(static_cast<std::size_t>(equations.rows()), kNone);
@@ -130,7 +131,8 @@ Eigen::MatrixXd FrontTree::covariance_of_few(std::span<const Block> blocks, cons
   return P;
 }
 
-/// Likewise, for so many that most fronts are on the way of some.
+/// Computes E^T H^-1 E like covariance_of_few(). For more than a few blocks, most fronts lie on some path to the root,
+/// and all are visited.
 Eigen::MatrixXd FrontTree::covariance(std::span<const Block> blocks, const NormalEquations& equations) const {
   constexpr std::size_t kFew = 3;
   if (blocks.size() <= kFew) return covariance_of_few(blocks, equations);

@@ -1,4 +1,4 @@
-// The shape of the tree: which fronts there are, and which blocks each eliminates.
+// The shape of the tree: its fronts, and the blocks that each front eliminates.
 
 #include <algorithm>
 #include <utility>
@@ -9,27 +9,27 @@
 namespace azimuth {
 namespace {
 
-// An order made of what came last is as good as it gets for that; what it costs elsewhere is mended when the tree has
-// grown by this much.
+// Partial reordering is good for the newest blocks only. The whole tree is ordered anew when it has grown by this share
+// and by this number of blocks.
 constexpr double kGrowthBeforeNewOrder = 0.12;
 constexpr std::size_t kBlocksBeforeNewOrder = 32;
 
 }  // namespace
 
-/// What is ordered anew: blocks, and the fronts below whose parent is gone.
+/// The part of the tree that is ordered anew: blocks, and the fronts below it that have lost their parent.
 class FrontTree::Part {
  public:
   std::vector<Block> blocks;  // ascending
   std::vector<int> orphans;
 
   static constexpr int kElsewhere = -1;
-  /// The number of a block in `blocks`.
+  /// Index of a block in `blocks`; kElsewhere when it is not among them.
   int number_of(Block block) const {
     const auto found = std::ranges::lower_bound(blocks, block);
     return found != blocks.end() && *found == block ? static_cast<int>(found - blocks.begin()) : kElsewhere;
   }
   Block block(int number) const { return blocks[static_cast<std::size_t>(number)]; }
-  /// The blocks that a front leaves to its parent, by their numbers.
+  /// Indices of the blocks that a front leaves to its parent.
   std::vector<int> left_by(const FrontShape& shape) const {
     std::vector<int> numbers;
     for (std::size_t i = shape.eliminated_blocks; i < shape.blocks.size(); ++i)
@@ -55,7 +55,7 @@ bool FrontTree::wants_new_order() const {
   return blocks_ + changed_.size() > ordered_ + std::max(kBlocksBeforeNewOrder, grown);
 }
 
-/// Takes out the fronts of what has changed and all above them.
+/// Takes out the fronts of the changed blocks and all fronts above them.
 FrontTree::Part FrontTree::take_out_changed(const NormalEquations& equations) {
   const bool everything = wants_new_order();
   std::vector<char> gone(nodes_.size(), everything ? 1 : 0);
@@ -89,7 +89,7 @@ void FrontTree::take_out(int at, std::vector<Block>& blocks) {
   free_.push_back(at);
 }
 
-/// Blocks are tied by terms, and by what has been eliminated below.
+/// Orders the part's blocks. Blocks are tied by terms and by the Schur complements of the orphans.
 Elimination FrontTree::eliminate(const Part& part, const NormalEquations& equations) const {
   EliminationGraph graph(part.blocks.size());
   std::vector<std::uint8_t> ranks;
@@ -113,7 +113,7 @@ void FrontTree::put_back(const Part& part, const std::vector<FrontDraft>& drafts
     front_of_.resize(blocks, kNone);
     turn_of_.resize(blocks);
   }
-  std::vector<int> places;  // of the drafts' nodes
+  std::vector<int> places;  // node of each draft
   std::vector<std::vector<int>> children(drafts.size());
   std::vector<int> draft_of(part.blocks.size());
   for (const FrontDraft& draft : drafts) {
@@ -127,7 +127,8 @@ void FrontTree::put_back(const Part& part, const std::vector<FrontDraft>& drafts
     node(places.back()).parent = places[static_cast<std::size_t>(draft.parent)];
     children[static_cast<std::size_t>(draft.parent)].push_back(places.back());
   }
-  // What an orphan leaves is tied together, so one front has all of it: that of the block which goes first, the lowest.
+  // The blocks that an orphan leaves are tied to each other, so one front holds all of them: the front of the block
+  // that is eliminated first, which is the lowest.
   for (const int orphan : part.orphans) {
     int draft = FrontDraft::kRoot;
     for (const int number : part.left_by(*node(orphan).shape))
@@ -168,7 +169,7 @@ int FrontTree::free_node() {
   return at;
 }
 
-/// Children before parents.
+/// Lists the fronts, children before parents.
 void FrontTree::list_postorder() {
   std::vector<int> waiting;
   for (std::size_t at = 0; at < nodes_.size(); ++at)

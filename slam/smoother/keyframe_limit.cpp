@@ -8,9 +8,9 @@
 namespace azimuth {
 namespace {
 
-// Everything is ordered and factorised anew when poses are forgotten, so it is done for many at a time.
-constexpr int kShareForgotten = 8;                  // one of so many
-constexpr int kShareNewest = 4, kShareOldest = 32;  // these stay
+// Removing poses orders and factorises everything anew, so many poses are removed at a time.
+constexpr int kShareForgotten = 8;                  // one in so many
+constexpr int kShareNewest = 4, kShareOldest = 32;  // one in so many is kept
 
 }  // namespace
 

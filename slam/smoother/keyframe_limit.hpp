@@ -8,20 +8,22 @@
 
 namespace azimuth {
 
-/// How many poses a graph may have, and which are to be forgotten when there are more (SPEC VI.24).
+/// The limit on the number of poses of a graph, and the choice of poses to remove beyond it (mathematics VI.24).
 ///
 /// Thread contract: thread-bound.
 class KeyframeLimit {
  public:
-  /// 0: as many as come. No landmark is left with fewer bearings that fit.
+  /// `max_poses` 0: no limit. Each landmark keeps at least `fewest_bearings` bearings that fit.
   explicit KeyframeLimit(int max_poses, std::size_t fewest_bearings = 6);
 
-  /// BearingGraph::forget() is to follow, and forgotten().
+  /// Whether poses should be removed. The caller then calls BearingGraph::forget() and forgotten().
   bool is_exceeded(const BearingGraph& graph) const { return graph.poses() > most_; }
-  /// Those worth least, ascending: so many that it is some time until there are too many again, fewer or none when
-  /// landmarks need them. `numbers`: of all poses, when each arrived.
+  /// The least valuable poses, ascending. Their number is such that the limit is not exceeded again at once; it is
+  /// smaller, possibly zero, when landmarks need the poses. `numbers` has the number in the order of arrival of each
+  /// pose.
   std::vector<PoseId> least_worth(const BearingGraph& graph, std::span<const std::int32_t> numbers) const;
-  /// Where landmarks need so many poses that few can be forgotten, it is time again when there are that many more.
+  /// Must be called after poses were removed. If landmarks need more poses than the limit, the limit is raised until
+  /// the graph has grown again.
   void forgotten(const BearingGraph& graph);
 
  private:
@@ -29,7 +31,7 @@ class KeyframeLimit {
 
   int max_poses_;
   std::size_t fewest_bearings_;
-  PoseId most_;  ///< before some have to be forgotten
+  PoseId most_;  ///< number of poses beyond which some are removed
 };
 
 }  // namespace azimuth

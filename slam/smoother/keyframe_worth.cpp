@@ -12,9 +12,11 @@ namespace azimuth {
 namespace {
 
 constexpr double kNeeded = std::numeric_limits<double>::infinity();
-constexpr double kAllOfIt = 1e-9;  // of a landmark's information is left: without the bearing nothing would be known
+// Share of a landmark's information. If less than this share remains, the landmark is undetermined.
+constexpr double kAllOfIt = 1e-9;
 
-/// What each pose's bearings add to what is known of their landmarks, and how long a way would be without any pose.
+/// The value of each pose: the information of its bearings on their landmarks, and the gap in the path without the
+/// pose.
 class Worths {
  public:
   Worths(const BearingGraph& graph, std::span<const std::int32_t> numbers, const ThinningRule& rule);
@@ -22,12 +24,12 @@ class Worths {
   bool may_be_forgotten(PoseId id) const {
     return id >= oldest_kept_ && id < first_kept_ && id != graph_.remembered().pose;
   }
-  /// It only grows while other poses are forgotten.
+  /// The value of a pose. It only grows while other poses are removed.
   double of(PoseId id) const;
   void forget(PoseId id);
 
  private:
-  /// The normal matrix of its (alpha, rho), poses taken as known.
+  /// Information on a landmark's (alpha, rho), with the poses taken as known.
   struct Known {
     Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
     std::size_t bearings = 0;
@@ -47,8 +49,8 @@ class Worths {
   std::span<const std::int32_t> numbers_;
   std::size_t fewest_bearings_;
   PoseId oldest_kept_, first_kept_;
-  std::vector<Known> known_;            // of each landmark
-  std::vector<PoseId> before_, after_;  // of each pose, the next ones left
+  std::vector<Known> known_;            // per landmark
+  std::vector<PoseId> before_, after_;  // per pose, its remaining neighbours
   double mean_told_ = 1.0, mean_gap_ = 1.0;
 };
 
@@ -78,8 +80,8 @@ Worths::Worths(const BearingGraph& graph, std::span<const std::int32_t> numbers,
   mean_gap_ = 2.0 * std::max(number(first_kept_) - number(0), 1.0) / std::max(first_kept_, 1);
 }
 
-/// ln of how much larger the volume of what a landmark may be would be, summed up: of a bearing with derivatives j, of
-/// information L in all, -ln(1 - j^T L^-1 j).
+/// Sum over the pose's bearings of the logarithm by which the landmark's uncertainty volume would grow without the
+/// bearing. For a bearing with derivative j and a landmark with information L, this is -ln(1 - j^T L^-1 j).
 double Worths::told(PoseId id) const {
   double worth = 0.0;
   for_each_bearing(id, [&](const Eigen::Vector2d& by, std::size_t landmark) {
@@ -108,8 +110,8 @@ void Worths::forget(PoseId id) {
 
 }  // namespace
 
-/// The least first. A worth that was entered is a lower bound of what it is now, so the first one that has not changed
-/// is the least of all.
+/// Removes the least valuable pose first. A value in the queue is a lower bound of the current value, so the first
+/// entry whose value has not changed is the minimum.
 std::vector<PoseId> least_worth(const BearingGraph& graph, std::span<const std::int32_t> numbers, std::size_t count,
                                 const ThinningRule& rule) {
   Worths worths(graph, numbers, rule);

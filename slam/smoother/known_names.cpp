@@ -8,8 +8,9 @@
 namespace azimuth {
 namespace {
 
-// Times as much information of its bearings leaves a landmark's prior with nothing to say of its own: with a standard
-// deviation a fifth of the prior's, a mean that is off by one of those shifts the landmark by a fifth of its own.
+// A landmark's prior is switched off once its bearings have this many times the prior's information. The landmark's
+// standard deviation is then a fifth of the prior's, and a prior mean that is off by one prior standard deviation
+// shifts the landmark by a fifth of its own.
 constexpr double kToldWithoutPrior = 25.0;
 
 std::optional<MeasuredElevation> elevation_of(const Bearing& bearing) {
@@ -70,7 +71,7 @@ bool KnownNames::update(const BearingSet& set) {
   }
   if (!used_any) return false;
   outcome_ = smoother_.optimise();
-  replant_contradicted();
+  reinitialise_contradicted();
   weigh_priors();
   return true;
 }
@@ -106,8 +107,8 @@ void KnownNames::use(const Bearing& bearing, Known& known, Stamp stamp) {
   const double sigma_rad = rig_.bearing_noise * said_rad;
   const BearingId id = smoother_.add_bearing(bearing.azimuth_rad, sigma_rad, elevation_of(bearing));
   if (known.landmark == kOfNothing) {
-    known.landmark = plant(id, bearing.identity);
-    ++last_image_.planted;
+    known.landmark = initialise(id, bearing.identity);
+    ++last_image_.initialised;
   } else {
     smoother_.assign(id, known.landmark);
   }
@@ -116,21 +117,22 @@ void KnownNames::use(const Bearing& bearing, Known& known, Stamp stamp) {
   known.last_from = anchor();
 }
 
-LandmarkId KnownNames::plant(BearingId first, Identity name) {
+LandmarkId KnownNames::initialise(BearingId first, Identity name) {
   names_.push_back(name);
   replaced_.push_back(0);
   return smoother_.add_landmark(first);
 }
 
-/// Beside its prior.
+/// Whether the landmark's bearings alone determine its distance.
 bool KnownNames::is_told(LandmarkId landmark) const {
   const double sigma_per_m = settings_.smoother.inverse_depth_sigma_per_m;
   return smoother_.graph().told_information(landmark) * sigma_per_m * sigma_per_m > kToldWithoutPrior;
 }
 
-/// Where landmarks begin to be seen is much the same for all of them, so their priors are off together: of hundreds
-/// they say more, and wrongly, of how long and how bent the path is than odometry does. One comes back when bearings
-/// that told the distance have turned out to be of something else.
+/// Switches off the priors of landmarks that their bearings determine. Landmarks come into view at similar distances,
+/// so the errors of their priors are correlated; hundreds of priors would outweigh odometry in the length and the
+/// curvature of the path. A prior is switched on again when bearings that determined the distance turn out to be wrong
+/// associations.
 void KnownNames::weigh_priors() {
   const BearingGraph& graph = smoother_.graph();
   for (BearingId id = last_image_.first; id < graph.bearings(); ++id)
@@ -138,9 +140,9 @@ void KnownNames::weigh_priors() {
       smoother_.use_prior(landmark, !is_told(landmark));
 }
 
-/// A landmark that was first seen under another's name stands in a wrong place, from where no small step leads to the
-/// right one. When nothing in an image fits, it is the pose that is wrong.
-void KnownNames::replant_contradicted() {
+/// Initialises contradicted landmarks anew. A landmark whose first bearing carried a wrong identity lies in a wrong
+/// place that no small step corrects. When no bearing of an image fits, the pose is wrong instead.
+void KnownNames::reinitialise_contradicted() {
   const BearingGraph& graph = smoother_.graph();
   const BearingId end = graph.bearings();
   bool any_agrees = false;
@@ -149,19 +151,20 @@ void KnownNames::replant_contradicted() {
     any_agrees = any_agrees || (agrees(id) && graph.bearings_of(known.landmark).size() > 1);
     known.refused_in_row = agrees(id) ? 0 : known.refused_in_row + 1;
   }
-  if (!any_agrees || settings_.replant_after <= 0) return;
+  if (!any_agrees || settings_.reinitialise_after <= 0) return;
   for (BearingId id = last_image_.first; id < end; ++id) {
     const Identity name = names_[static_cast<std::size_t>(graph.landmark_of(id))];
     Known& known = known_[name];
-    if (known.refused_in_row >= settings_.replant_after && replant(name, known)) ++last_image_.replanted;
+    if (known.refused_in_row >= settings_.reinitialise_after && reinitialise(name, known)) ++last_image_.reinitialised;
   }
 }
 
-/// On the ray of its newest bearing. False, with everything as it was, when that explains the bearings no better.
-bool KnownNames::replant(Identity name, Known& known) {
+/// Initialises the landmark anew on the ray of its newest bearing. Returns false and restores everything when the
+/// energy does not fall.
+bool KnownNames::reinitialise(Identity name, Known& known) {
   const std::vector<BearingId> bearings = smoother_.graph().bearings_of(known.landmark);
   const Smoother before = smoother_;
-  const LandmarkId anew = plant(bearings.back(), name);
+  const LandmarkId anew = initialise(bearings.back(), name);
   for (const BearingId bearing : bearings) smoother_.assign(bearing, anew);
   outcome_ = smoother_.optimise();
   known.refused_in_row = 0;

@@ -8,20 +8,21 @@
 
 namespace azimuth {
 
-// Numbers given in the order of arrival. Until the graph forgets some they are never those of something else.
+// Numbers in the order of arrival. Only BearingGraph::forget() renumbers poses and bearings.
 using PoseId = std::int32_t;
 using BearingId = std::int32_t;
 using LandmarkId = std::int32_t;
 inline constexpr LandmarkId kOfNothing = -1;
 
-/// What fits worse, squared in standard deviations, the robust kernel hardly listens to.
+/// Squared residual in standard deviations up to which a bearing counts as fitting. The robust kernel gives larger
+/// residuals little weight.
 inline constexpr double kFitsChi2 = 9.0;
-/// One beyond this is not of what it is said to be, and no measure of noise: wrong names are of anywhere, so few of
-/// them are nearer; noise whose tails are longer than a Gaussian's hardly goes beyond.
+/// Squared residual beyond which a bearing counts as a wrong association and is left out of noise estimates. Wrong
+/// associations are spread over all directions, so few of them lie below this value; even heavy-tailed noise hardly
+/// exceeds it.
 inline constexpr double kScattersChi2 = 25.0;
 
-/// Errors of odometry, then those of the camera: its yaw, where the image's centre is, and where the camera stands on
-/// the robot.
+/// Calibration values: the errors of odometry, then those of the camera (yaw, image centre, position on the robot).
 inline constexpr int kCameraCalibrations = 5;
 inline constexpr int kCalibrations = kOdometryCalibrations + kCameraCalibrations;
 using Calibration = Eigen::Matrix<double, kCalibrations, 1>;
@@ -29,7 +30,7 @@ namespace calibration {
 enum : std::uint8_t { scale_distance, scale_turn, drift, lag, lag_growth, yaw, centre_x, centre_y, camera_x, camera_y };
 }  // namespace calibration
 
-/// Of each, what is known before.
+/// The prior standard deviation of each calibration value.
 inline Calibration sigmas(const CalibrationPriors& priors) {
   Calibration sigma;
   sigma << priors.sigma_scale_distance, priors.sigma_scale_turn, priors.sigma_drift_rad_per_m, priors.sigma_lag_s,
@@ -38,29 +39,29 @@ inline Calibration sigmas(const CalibrationPriors& priors) {
   return sigma;
 }
 
-/// What an image's centre that is elsewhere does to an azimuth: by its x and y, in pixels.
+/// d(corrected azimuth) / d(image centre (x, y) [px]).
 using ByCentre = Eigen::Vector2d;
 
 inline constexpr std::int32_t kNoElevation = -1;
 
-/// A direction from a pose.
+/// An azimuth measured from a pose.
 struct BearingMeasurement {
   PoseId pose = 0;
-  std::int32_t elevation = kNoElevation;  ///< which of those it has
+  std::int32_t elevation = kNoElevation;  ///< index of its elevation; kNoElevation: none
   double azimuth_rad = 0.0, sigma_rad = 1.0;
   ByCentre by_centre = ByCentre::Zero();
 };
 
-/// How high a direction points, if it was measured.
+/// An elevation measured together with an azimuth.
 struct MeasuredElevation {
   double elevation_rad = 0.0;  ///< up from the horizontal
   double sigma_rad = 1.0;
 };
 
-/// What is known of landmarks and a pose from before, all together (SPEC VI.18): a Gaussian of, one after another, the
-/// pose's (x, y, heading) and each landmark's (alpha, rho).
+/// The joint prior of landmarks and one pose from a saved map (mathematics VI.18). It is a Gaussian whose entries are
+/// the pose's (x, y, heading), then (alpha, rho) of each landmark.
 struct Remembered {
-  PoseId pose = 0;  ///< 0, the first one: none; it has no entries then
+  PoseId pose = 0;  ///< 0 (the first pose): there is no pose, and it has no entries
   std::vector<LandmarkId> landmarks;
   Eigen::VectorXd mean;
   Eigen::MatrixXd information;  ///< inverse covariance

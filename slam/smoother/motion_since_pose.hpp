@@ -8,14 +8,14 @@
 
 namespace azimuth {
 
-/// Noise of any motion, after one second of it, standard deviations; positive: what stands between two poses is never
-/// exact.
+/// Minimum noise that is added to a motion, as standard deviations after one second of motion. The values must be
+/// positive, so that the covariance between two poses is positive definite.
 struct MotionFloors {
   double distance_m = 0.5e-3;
   double rotation_rad = 0.5e-3;
 };
 
-/// How the robot went on since the newest pose of a graph, image by image: what the next pose is added with.
+/// The motion since the newest pose of a graph, accumulated image by image. The next pose is added with it.
 ///
 /// Thread contract: thread-bound.
 class MotionSincePose {
@@ -26,13 +26,13 @@ class MotionSincePose {
     append(motion_, motion);
     moved_ = moved_ || motion.moved();
   }
-  /// An image was taken: the time since the one before counts when the robot moved in it.
+  /// Notes that an image was taken. The time since the image before counts as time in motion if the robot moved in it.
   void image_taken(Stamp stamp) {
     if (moved_ && last_image_) moving_s_ += to_seconds(stamp - *last_image_);
     last_image_ = stamp;
     moved_ = false;
   }
-  /// The graph has a pose here.
+  /// Starts anew from a pose that the graph now has here.
   void pose_added() {
     motion_ = Motion{};
     moving_s_ = 0.0;
@@ -49,11 +49,11 @@ class MotionSincePose {
   }
 
  private:
-  static constexpr double kShortest_s = 1e-3;  // nobody knows when a motion before the first image began
+  static constexpr double kShortest_s = 1e-3;  // for motion before the first image, whose duration is unknown
 
   MotionFloors floors_;
   Motion motion_;
-  double moving_s_ = 0.0;  // of that motion
+  double moving_s_ = 0.0;  // time in motion
   bool moved_ = false;     // since the last image
   std::optional<Stamp> last_image_;
 };

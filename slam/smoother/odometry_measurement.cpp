@@ -10,14 +10,14 @@
 namespace azimuth {
 namespace {
 
-/// W with W^T W = covariance^-1.
+/// Returns W with W^T W = covariance^-1.
 Eigen::Matrix3d whitening_of(const Eigen::Matrix3d& covariance) {
   const Eigen::LLT<Eigen::Matrix3d> factor(covariance);
   assert(factor.info() == Eigen::Success);
   return factor.matrixL().solve(Eigen::Matrix3d::Identity());
 }
 
-/// d(end of the motion) / d(calibration). A drift turns the path by half of what it turns the heading.
+/// d(end of the motion) / d(calibration). A drift turns the direction of travel by half of the gained heading.
 Eigen::Matrix<double, 3, kMotionCalibrations> by_calibration(const Motion& motion) {
   const Pose2& T = motion.T_start_end;
   const double driven_m = std::copysign(motion.path_m, T.x_m);

@@ -5,21 +5,21 @@
 
 namespace azimuth {
 
-/// The errors that odometry may have throughout, in this order: of distance, of turn, drift, lag, and how fast the lag
-/// grows.
+/// The systematic errors of odometry, in this order: scale of distance, scale of turn, drift, lag, growth of the lag.
 inline constexpr int kOdometryCalibrations = 5;
-inline constexpr int kMotionCalibrations = 3;  ///< of these, such as its motion alone tells
+/// the first of these errors: their effect follows from the motion alone
+inline constexpr int kMotionCalibrations = 3;
 
-/// What a lag does to a motion, (x, y, heading) of its end as seen from its start: by seconds of lag, and by seconds
-/// that it grows in a second.
+/// d(motion) / d(lag [s], growth of the lag [s/s]). A motion is (x, y, heading) of its end relative to its start.
 using ByLag = Eigen::Matrix<double, 3, kOdometryCalibrations - kMotionCalibrations>;
 
-/// What odometry says of the way from one pose to the next.
+/// The odometry from one pose to the next.
 struct OdometryMeasurement {
-  Eigen::Vector3d relative = Eigen::Vector3d::Zero();   ///< (x, y, heading) of the end as seen from the start
-  Eigen::Matrix3d whitening = Eigen::Matrix3d::Zero();  ///< W, with W^T W its information
+  Eigen::Vector3d relative = Eigen::Vector3d::Zero();   ///< (x, y, heading) of the end relative to the start
+  Eigen::Matrix3d whitening = Eigen::Matrix3d::Zero();  ///< W, with W^T W the information matrix
+  /// d(relative) / d(calibration)
   Eigen::Matrix<double, 3, kOdometryCalibrations> by_calibration =
-      Eigen::Matrix<double, 3, kOdometryCalibrations>::Zero();  ///< d(relative) / d(calibration)
+      Eigen::Matrix<double, 3, kOdometryCalibrations>::Zero();
 
   Eigen::Matrix3d covariance() const;
 };
@@ -27,10 +27,10 @@ struct OdometryMeasurement {
 /// `motion.covariance` must be positive definite.
 OdometryMeasurement odometry_measurement(const Motion& motion, const ByLag& by_lag = ByLag::Zero());
 
-/// Of the way to where `second` ends, which begins where `first` ends.
+/// Composes two measurements; `second` begins where `first` ends.
 OdometryMeasurement composed(const OdometryMeasurement& first, const OdometryMeasurement& second);
 
-/// d(composed) / d(first), both (x, y, heading) of `relative`.
+/// d(composed) / d(first), where both are `relative` (x, y, heading).
 Eigen::Matrix3d by_first(const Eigen::Vector3d& first, const Eigen::Vector3d& composed);
 
 }  // namespace azimuth

@@ -8,14 +8,16 @@ namespace azimuth {
 namespace {
 
 constexpr double kNearest_m = 0.5;
-// Odometry from the map's first pose to here: none.
+// Standard deviations of a motion that stands for no odometry at all.
 constexpr double kAnywhere_m = 1e3, kAnyHeading_rad = 1e2;
-// What is known better than this was known by agreement, not by measurement. Metres, radians, one per metre.
+// Smallest standard deviation of a remembered entry [m, rad, 1/m]. Smaller ones are fixed by convention, not by
+// measurement.
 constexpr double kSurest = 1e-6;
 
-/// SPEC VI.21, as seen from the map's origin, or from beside it when it is there. A turn of the whole map about its
-/// origin, which is what is known least, changes all directions from there alike, wherever landmarks are corrected to.
-/// From any other place it changes them by where they are, and what is remembered, which is linear, does not follow.
+/// The landmark in a chart at the map's origin (mathematics VI.21), or beside the origin when the landmark lies there.
+/// The most uncertain degree of freedom of a map is a turn about its origin. Such a turn changes all alpha of such
+/// charts equally, wherever the landmarks are later corrected to. In any other chart it would depend on the landmark's
+/// position, and the linear prior could not follow.
 SmoothedLandmark from_origin(const Eigen::Vector2d& p_map) {
   const bool is_far = p_map.norm() > kNearest_m;
   const Eigen::Vector2d chart = is_far ? Eigen::Vector2d(0.0, 0.0) : Eigen::Vector2d(p_map.x() - 1.0, p_map.y());

@@ -8,11 +8,12 @@
 
 namespace azimuth {
 
-/// Puts a saved map of landmarks in the plane into a smoother that has nothing but its first pose: the map's frame is
-/// the smoother's. Landmarks have the order of the map. What the map knows of its camera is not used.
+/// Puts a saved map of landmarks in the plane into a smoother that has only its first pose. The map's frame becomes the
+/// smoother's frame. The returned landmarks are in the map's order. The map's camera calibration is not used.
 ///
-/// With `moved` the robot is where the map saw it last, give or take so much (covariance of (x [m], y [m], heading
-/// [rad])), at the newest pose; without, where it is nobody knows. Thread contract: reentrant.
+/// With `moved`, the newest pose gets the robot's pose in the map as its prior, with the saved covariance plus `moved`
+/// (covariance of (x [m], y [m], heading [rad])). Without `moved`, the robot's pose in the map is unknown. Thread
+/// contract: reentrant.
 std::vector<LandmarkId> remember(const MapSnapshot& map, const std::optional<Eigen::Matrix3d>& moved,
                                  Smoother& smoother);
 

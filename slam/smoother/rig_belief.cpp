@@ -10,21 +10,22 @@ namespace azimuth {
 namespace {
 
 constexpr double kLogOddsToStay = 0.0;
-constexpr double kPossible_sigmas = 3.0;  // of a rig that is wrong
-// What the rig says of noise counts as so many residuals: a short drive says little.
+constexpr double kPossible_sigmas = 3.0;  // bound on a plausible error, in standard deviations of a wrong rig
+// Number of residuals that the rig's stated noise is worth, so that a short drive changes it little.
 constexpr double kSaidCountsAs = 20.0;
-// Errors that all bearings of an image share are taken up by its pose, and are not among what is left: of how much less
-// noise there seems to be half is believed, in decibels.
+// Exponent applied when the noise seems smaller than stated. A pose absorbs the errors that all bearings of its image
+// share, so residuals understate the noise.
 constexpr double kBelievedOfLess = 0.5;
-constexpr std::array kStrides{1, 4, 16, 64};  // poses
-constexpr double kWorthChanging = 1.05;       // times
+constexpr std::array kStrides{1, 4, 16, 64};  // lengths of odometry in poses
+constexpr double kWorthChanging = 1.05;       // ratio
 
 double followed(const Smoother::Noise& noise, double believed, double said) {
   const double ratio = noise.ratio * believed / said, told = noise.told / (noise.told + kSaidCountsAs);
   return said * std::pow(ratio, (ratio < 1.0 ? kBelievedOfLess : 1.0) * told);
 }
 
-/// The largest over short and long ways: what adds up, such as a scale that is off, is little from image to image.
+/// The largest odometry noise over short and long stretches of path. Errors that add up, such as a wrong scale, are
+/// small from image to image.
 double followed_odometry(const Smoother& smoother, double believed, double said) {
   double most = 0.0;
   for (const int stride : kStrides)

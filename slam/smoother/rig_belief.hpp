@@ -8,20 +8,21 @@
 
 namespace azimuth {
 
-/// What a graph takes from the rig, and what a drive makes of it.
+/// The values that a graph takes from the rig (the robot's configured calibration and noise), and their adaptation to
+/// the drive.
 ///
-/// A rig is right, or nearly so, most of the time, and far off now and then: a camera put on by hand, an odometer of
-/// another robot's. To take all of that for unknown throughout costs accuracy wherever a drive tells little (a corridor
-/// bends as a heading that is off does), so each of the rig's values is believed as well as it says until the drive
-/// contradicts it by more than the odds against that, and is an unknown then, known before to `if_wrong` only (SPEC
-/// VI.33). Noise is followed both ways.
+/// A rig is usually right or nearly so, and sometimes far off, for instance with a camera mounted by hand or the
+/// odometer of another robot. Wide priors throughout would cost accuracy wherever a drive has little information: a
+/// heading error looks like a bent corridor. Therefore each value keeps the narrow prior that the rig states until the
+/// evidence of the drive against the value exceeds kLogOddsToDoubt. The value then gets the wide prior
+/// RigDoubts::if_wrong (mathematics VI.33). The noise is adapted upwards and downwards.
 struct RigBelief {
-  Calibration sigma = Calibration::Zero();  ///< of the graph's priors, where calibrations are unknowns
-  double bearing_noise = 1.0;               ///< standard deviations, times the rig's
+  Calibration sigma = Calibration::Zero();  ///< prior standard deviations of the calibrated values
+  double bearing_noise = 1.0;               ///< factor on the rig's standard deviations
   double odometry_noise = 1.0;
   std::array<bool, kCalibrations> doubted{};
-  /// Doubted, and what came of it was no rig: something else is wrong, such as the sense of azimuths. The
-  /// rig is believed from then on.
+  /// The value was doubted, and its estimate was then impossible for a rig. Something else is wrong, such as the sense
+  /// of rotation of azimuths. The whole rig is believed from then on.
   std::array<bool, kCalibrations> impossible{};
 
   bool is_doubted(int which) const { return doubted[static_cast<std::size_t>(which)]; }
@@ -31,17 +32,19 @@ struct RigBelief {
 };
 
 struct RigDoubts {
-  CalibrationPriors if_wrong;  ///< standard deviations; 0: never doubted
-  bool noise = false;          ///< the scatter of bearings and odometry is followed
+  CalibrationPriors if_wrong;  ///< prior standard deviations of a wrong value; 0: never doubted
+  bool noise = false;          ///< whether the noise of bearings and odometry is adapted
 };
 
-/// What the rig says.
+/// The initial belief: the rig's own values.
 RigBelief rig_belief(const CalibrationPriors& said);
 
-/// What `smoother`, which goes by `belief`, makes of the rig that says `said`. As of its last optimise().
+/// The rig belief that the measurements suggest. `smoother` uses `belief` now, and `said` is the rig's own belief. The
+/// result is as of the smoother's last optimise().
 RigBelief judged(const Smoother& smoother, const RigBelief& belief, const RigBelief& said, const RigDoubts& doubts);
 
-/// Goes by `next` from now on: optimise() is to follow. False: nothing has changed.
+/// Switches the smoother from `belief` to `next`; the caller must call optimise() afterwards. Returns false when
+/// nothing has changed.
 bool change(Smoother& smoother, const RigBelief& belief, const RigBelief& next);
 
 }  // namespace azimuth

@@ -1,5 +1,6 @@
 #pragma once
-// Kernels that let a bearing of something else pull less (SPEC VI.18). All are quadratic for small residuals.
+// Robust kernels, which reduce the weight of outliers among the bearings (mathematics VI.18). Every kernel is quadratic
+// for small residuals.
 
 #include <algorithm>
 #include <cmath>
@@ -9,20 +10,20 @@ namespace azimuth {
 
 enum class RobustKernel : std::uint8_t {
   none,    ///< least squares
-  huber,   ///< grows with the residual beyond the width
-  cauchy,  ///< grows with its logarithm
-  dcs      ///< dynamic covariance scaling: bounded, by 1.5 times the width's square
+  huber,   ///< energy grows linearly with the residual beyond the width
+  cauchy,  ///< energy grows with the logarithm of the residual
+  dcs      ///< dynamic covariance scaling: energy bounded by 1.5 width^2
 };
 
-/// Energy of a residual, and its derivative by half the squared residual: the weight that makes the least squares
-/// problem of the moment have the same gradient.
+/// Energy of a residual, and its derivative with respect to half the squared residual. This derivative is the weight
+/// with which weighted least squares has the same gradient.
 struct KernelValue {
   double energy = 0.0;  ///< residual^2 / 2 where the kernel does nothing
   double weight = 1.0;
 };
 
-/// `chi2` is the squared residual in standard deviations, `width` where the kernel begins to tell, likewise. Thread
-/// contract: reentrant.
+/// `chi2` is the squared residual in standard deviations; `width` is the residual, in standard deviations, at which the
+/// kernel sets in. Thread contract: reentrant.
 inline KernelValue kernel_value(RobustKernel kernel, double width, double chi2) {
   const double width2 = width * width;
   switch (kernel) {

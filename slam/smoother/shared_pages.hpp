@@ -8,14 +8,15 @@
 
 namespace azimuth {
 
-/// A list that grows at its end and whose copies share what neither has changed since: copying costs one pointer for
-/// each page of PageEntries, and the first change of a page that is shared copies that page.
+/// A list that grows at its end. Copies share the pages that neither copy has changed since: a copy costs one pointer
+/// per page of PageEntries entries, and the first change to a shared page copies that page.
 ///
-/// Thread contract: thread-bound; two lists that share pages may be on two threads once the copy has been handed over.
+/// Thread contract: thread-bound; two lists that share pages may be used on two threads once the copy has been handed
+/// over.
 template <class Entry, std::size_t PageEntries = 64>
 class SharedPages {
  public:
-  using Number = std::int32_t;  // of an entry, from 0 on in the order of arrival
+  using Number = std::int32_t;  // index of an entry
 
   Number size() const { return size_; }
   bool empty() const { return size_ == 0; }
@@ -26,14 +27,13 @@ class SharedPages {
   }
   const Entry& back() const { return (*this)[size_ - 1]; }
 
-  /// The entry, to be changed: no longer shared with anyone.
+  /// Returns the entry for a change; its page is no longer shared afterwards.
   Entry& edit(Number at) {
     const auto place = static_cast<std::size_t>(at);
     std::shared_ptr<Page>& page = pages_[place / PageEntries];
     if (page.use_count() > 1)
       page = std::make_shared<Page>(*page);
-    else  // whoever gave it up, on another thread perhaps, has finished reading it: counting it once more makes that
-          // sure
+    else  // counting the pointer synchronises with another thread that has just released the page
         [[maybe_unused]]
       const std::shared_ptr<Page> alone = page;
     return (*page)[place % PageEntries];

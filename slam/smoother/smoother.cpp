@@ -10,14 +10,14 @@ namespace {
 constexpr double kFirstDamping = 1e-10, kMostDamping = 1e8;
 constexpr double kMoreDamping = 10.0, kLessDamping = 5.0;
 constexpr int kTriesForEachIteration = 3;
-// Energies are sums of thousands of terms: what differs by less may be rounding.
+// Relative rounding error of an energy, which is a sum of thousands of terms.
 constexpr double kEnergyRounding = 1e-11;
-// Times what counts as converged: a step that promises no more, and does not keep it, is not worth damping, for which
-// everything is factorised anew.
+// A step whose promised gain is below this multiple of converged_below, and which fails to lower the energy, is not
+// worth damping: damping factorises everything anew.
 constexpr double kLittle = 100.0;
 constexpr int kTimesHalved = 2;
-// Of the deviation that counts as none (the root of converged_below): unknowns that are pulled by less, in standard
-// deviations, or would go less far, in metres, radians or one per metre, stay as they are until it is more.
+// Fractions of sqrt(converged_below). Unknowns with a smaller pull (in standard deviations) or a smaller step (in
+// metres, radians or 1/m) stay as they are.
 constexpr double kNegligiblePull = 1e-5, kNegligibleStep = 3e-6;
 
 }  // namespace
@@ -30,7 +30,7 @@ Smoother::Smoother(const SmootherSettings& settings, const Pose2& T_map_first)
 PoseId Smoother::add_pose(const Motion& motion, const ByLag& by_lag) {
   const PoseId id = graph_.add_pose(motion, by_lag);
   factor_.restructure(graph_.block_of_pose(id));
-  // All later poses are tied to the calibration by those before them; the first one is no unknown.
+  // The term of the new pose and the calibration is tied in through the pose before. The first pose is no unknown.
   factor_.restructure(id > 1 ? graph_.block_of_pose(id - 1) : BearingGraph::kCalibrationBlock);
   return id;
 }
@@ -56,7 +56,7 @@ void Smoother::assign(BearingId bearing, LandmarkId landmark) {
   tie_height(bearing);
   const Block block = graph_.block_of_landmark(landmark);
   if (graph_.bearings_of(landmark).size() == 1) factor_.restructure(block);
-  if (graph_.size(pose) == 0) {  // what is left of the term is tied to the calibration
+  if (graph_.size(pose) == 0) {  // a constant pose: the term is between landmark and calibration
     factor_.restructure(BearingGraph::kCalibrationBlock);
     return factor_.restructure(block);
   }
@@ -65,7 +65,7 @@ void Smoother::assign(BearingId bearing, LandmarkId landmark) {
   factor_.restructure(block);
 }
 
-/// The term is of pose, landmark and height, and stands with whichever goes first.
+/// The term involves pose, landmark and height, and lies in the front of whichever is eliminated first.
 void Smoother::untie_height(BearingId bearing) {
   if (!graph_.has_elevation(bearing)) return;
   const LandmarkId landmark = graph_.landmark_of(bearing);
@@ -108,7 +108,7 @@ void Smoother::use_prior(LandmarkId landmark, bool used) {
   factor_.mark_stale(block, block);
 }
 
-/// Most fronts have something of what is forgotten in them or below, and the numbers of blocks are others.
+/// The factor is rebuilt: most fronts depend on removed blocks, and the blocks are renumbered.
 void Smoother::forget(std::span<const PoseId> poses) {
   graph_.forget(poses);
   start_factor_anew();
@@ -128,8 +128,8 @@ void Smoother::start_factor_anew() {
   for (Block block = 0; block < graph_.blocks(); ++block) factor_.restructure(block);
 }
 
-/// Gauss-Newton with the gradient of the moment and a factor that may be a little out of date: where it ends, the
-/// gradient is zero.
+/// Gauss-Newton with the exact gradient and a factor that may be slightly out of date. The gradient is zero at the
+/// solution all the same.
 Smoother::Outcome Smoother::optimise(int max_iterations) {
   Outcome outcome;
   const double deviation = std::sqrt(settings_.converged_below);
@@ -167,7 +167,7 @@ Smoother::Outcome Smoother::optimise(int max_iterations) {
   return outcome;
 }
 
-/// False, with everything as it was, when the energy does not fall.
+/// Returns false and restores all unknowns when the energy does not fall.
 bool Smoother::take_step(const Eigen::VectorXd& step, double energy_before) {
   const BearingGraph::Moved moved = graph_.move(step, kNegligibleStep * std::sqrt(settings_.converged_below));
   graph_.evaluate();
@@ -177,7 +177,7 @@ bool Smoother::take_step(const Eigen::VectorXd& step, double energy_before) {
   return false;
 }
 
-/// A single landmark of few bearings that would go too far is enough to spoil a step.
+/// Tries the step halved once and twice. A single landmark with few bearings can spoil a full step.
 bool Smoother::take_shorter_step(const Eigen::VectorXd& step, double energy_before) {
   double length = 1.0;
   for (int i = 0; i < kTimesHalved; ++i)
@@ -185,8 +185,8 @@ bool Smoother::take_shorter_step(const Eigen::VectorXd& step, double energy_befo
   return false;
 }
 
-/// Out of tries, it goes on from the same damping with the next image: measurements that contradict each other must not
-/// make an image wait.
+/// Raises the damping until the energy falls. When the tries are used up, the next image continues with the same
+/// damping, so that contradictory measurements cannot delay an image.
 bool Smoother::take_damped_step(double energy_before, int& tries) {
   damping_ = std::max(kFirstDamping, damping_ / kLessDamping);
   for (; damping_ <= kMostDamping; damping_ *= kMoreDamping) {

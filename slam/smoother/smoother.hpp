@@ -9,57 +9,59 @@
 
 namespace azimuth {
 
-/// The likeliest path and map given all odometry and bearings so far, and how uncertain both are (SPEC VI.18, VI.19).
+/// The most likely path and map given all odometry and bearings so far, and their uncertainty (mathematics VI.18,
+/// VI.19).
 ///
-/// Which bearing is of which landmark is decided elsewhere, and can be changed at any time. Nothing is computed before
-/// optimise(). Copies are cheap, and share what they have in common.
+/// The caller decides the data association and may change it at any time. Nothing is computed before optimise(). Copies
+/// are cheap and share equal parts.
 ///
-/// Thread contract: thread-bound. Same calls, same bits.
+/// Thread contract: thread-bound. The same calls give the same bits.
 class Smoother {
  public:
-  /// The first pose, of id 0, is a constant: see BearingGraph.
+  /// The first pose (id 0) is a constant: see BearingGraph.
   explicit Smoother(const SmootherSettings& settings, const Pose2& T_map_first = {});
 
-  // What was measured. Motions must have a covariance that is positive definite.
+  // Measurements. The covariance of a motion must be positive definite.
   PoseId add_pose(const Motion& motion, const ByLag& by_lag = ByLag::Zero());
   BearingId add_bearing(double azimuth_rad, double sigma_rad, const std::optional<MeasuredElevation>& elevation = {},
                         const ByCentre& by_centre = ByCentre::Zero()) {
     return graph_.add_bearing(azimuth_rad, sigma_rad, elevation, by_centre);
   }
 
-  // What it is of.
-  /// A landmark on the bearing's ray, with that bearing.
+  // Data association and priors.
+  /// Adds a landmark on the ray of bearing `first` and assigns the bearing to it.
   LandmarkId add_landmark(BearingId first);
-  /// What is known from before: see BearingGraph. It is kept beside all that is seen.
+  /// Adds a landmark of a saved map and the joint prior of the map: see BearingGraph.
   LandmarkId add_known_landmark(const SmoothedLandmark& landmark) { return graph_.add_known_landmark(landmark); }
   void remember(Remembered remembered);
-  /// kOfNothing: of none. A landmark of no bearing is left out, and comes back with its next one.
+  /// Assigns a bearing to a landmark; kOfNothing: to no landmark. A landmark that loses its last bearing is no unknown
+  /// until a bearing is assigned to it again.
   void assign(BearingId bearing, LandmarkId landmark);
-  /// All bearings of `gone` become those of `kept`.
+  /// Assigns all bearings of `gone` to `kept`.
   void merge(LandmarkId kept, LandmarkId gone);
   /// See BearingGraph.
   void use_prior(LandmarkId landmark, bool used);
-  /// What is no longer worth keeping: see BearingGraph. optimise() is to follow.
+  /// Removes poses and their bearings: see BearingGraph. The caller must call optimise() afterwards.
   void forget(std::span<const PoseId> poses);
 
-  /// See BearingGraph. optimise() is to follow.
+  /// See BearingGraph. The caller must call optimise() afterwards.
   void begin_at(const BearingGraph::Values& values);
 
   struct Outcome {
     int iterations = 0;      ///< steps taken
-    int damped = 0;          ///< of these, with damping
-    bool converged = false;  ///< else more iterations would lower the energy further
+    int damped = 0;          ///< number of these steps with damping
+    bool converged = false;  ///< otherwise further iterations would lower the energy
   };
-  /// Moves all unknowns towards the minimum, from where they are.
+  /// Moves all unknowns from their current values towards the minimum of the energy.
   Outcome optimise() { return optimise(settings_.max_iterations); }
   Outcome optimise(int max_iterations);
 
   const BearingGraph& graph() const { return graph_; }
   const Pose2& newest_pose() const { return graph_.pose(graph_.poses() - 1); }
-  /// As of the last optimise(): half the squared residuals in standard deviations, by the robust kernel, and the
-  /// priors'.
+  /// Energy as of the last optimise(): half the squared residuals in standard deviations, with the robust kernel, plus
+  /// the priors.
   double energy() const { return graph_.energy(); }
-  /// Listens to bearings that fit badly in another way, from the next optimise() on.
+  /// Sets the robust kernel; it takes effect with the next optimise().
   void set_kernel(RobustKernel kernel, double width) {
     settings_.kernel = kernel;
     settings_.kernel_width = width;
@@ -73,35 +75,36 @@ class Smoother {
     LandmarkId id;
   };
   using Unknown = std::variant<PoseOf, LandmarkOf>;
-  /// Joint covariance, as of the last optimise(): a pose is (x, y, heading) in the map, a landmark its (alpha, rho), or
-  /// nothing when no bearing is of it. The first pose has none.
+  /// Joint covariance, as of the last optimise(). A pose has the entries (x, y, heading) in the map, a landmark (alpha,
+  /// rho). The first pose and a landmark that is no unknown have no entries.
   Eigen::MatrixXd covariance(std::span<const Unknown> unknowns) const;
   Eigen::Matrix3d pose_covariance(PoseId id) const;
   Eigen::Matrix3d newest_covariance() const { return pose_covariance(graph_.poses() - 1); }
-  /// (x, y) of a landmark that is_point() and has bearings.
+  /// Covariance of (x, y) of a landmark that is_point() and has bearings.
   Eigen::Matrix2d point_covariance(LandmarkId id) const;
-  /// (x, y, height) of one that has elevations as well; height is above the camera.
+  /// Covariance of (x, y, height above the camera) of a landmark that is_point() and has elevations.
   Eigen::Matrix3d point_covariance_with_height(LandmarkId id) const;
 
-  /// Of all calibrations, likewise; zero for those that are no unknowns.
+  /// Covariance of all calibration values, as of the last optimise(); zero for values that are no unknowns.
   Eigen::Matrix<double, kCalibrations, kCalibrations> calibration_covariance() const;
 
-  /// How noisy bearings and odometry are, times what was said of them, by their residuals and how many of those the
-  /// unknowns have taken up; 1 where nothing tells. As of the last optimise().
+  /// The ratio of actual to stated noise, estimated from the residuals and from the number of residuals that the
+  /// unknowns take up. It is 1 when there are too few residuals. As of the last optimise().
   struct Noise {
-    double ratio = 1.0;  ///< of standard deviations
-    double told = 0.0;   ///< by how many residuals beyond the unknowns
+    double ratio = 1.0;  ///< ratio of actual to stated standard deviation
+    double told = 0.0;   ///< redundancy: number of residuals minus those that the unknowns take up
   };
   Noise bearing_noise() const;
-  /// By what odometry says of the ways over so many poses.
+  /// The ratio of actual to stated noise of odometry composed over `stride` poses at a time.
   Noise odometry_noise(int stride) const;
-  /// They are so many times as noisy as was said: optimise() is to follow.
+  /// Multiplies the standard deviations of all bearings and of all odometry so far. The caller must call optimise()
+  /// afterwards.
   void scale_noise(double bearings, double odometry);
-  /// See BearingGraph. optimise() is to follow.
+  /// See BearingGraph. The caller must call optimise() afterwards.
   void set_calibration_sigma(int which, double sigma) { graph_.set_calibration_sigma(which, sigma); }
 
   const FrontTree& factor() const { return factor_; }
-  /// For comparison: everything linearised here, and ordered anew.
+  /// Discards the factor, so that the next optimise() linearises and orders everything anew.
   void start_factor_anew();
 
  private:
@@ -118,7 +121,7 @@ class Smoother {
   SmootherSettings settings_;
   BearingGraph graph_;
   FrontTree factor_;
-  double damping_ = 0.0;  // of the last damped step
+  double damping_ = 0.0;
 };
 
 }  // namespace azimuth

@@ -1,4 +1,4 @@
-// How uncertain poses and landmarks are, from the factor.
+// Covariances of poses, landmarks and calibration, computed from the factor.
 
 #include <vector>
 
@@ -6,7 +6,7 @@
 
 namespace azimuth {
 
-/// The factor's unknowns of a pose are along its own axes; the map's are R(h) of that.
+/// The factor's unknowns of a pose are along the body's axes; R(heading) turns them into the map's axes.
 Eigen::MatrixXd Smoother::covariance(std::span<const Unknown> unknowns) const {
   std::vector<Block> blocks;
   Eigen::Index rows = 0;
@@ -51,7 +51,7 @@ Eigen::Matrix2d Smoother::point_covariance(LandmarkId id) const {
   return by_chart * covariance({&landmark, 1}) * by_chart.transpose();
 }
 
-/// height = tangent / rho
+/// The graph estimates tangent = height * rho, where rho is the inverse distance; hence height = tangent / rho.
 Eigen::Matrix3d Smoother::point_covariance_with_height(LandmarkId id) const {
   const std::vector<Block> blocks{graph_.block_of_landmark(id), graph_.block_of_height(id)};
   const double rho_per_m = graph_.landmark(id).inverse_distance_per_m;

@@ -1,5 +1,4 @@
-// How noisy what was measured is, by what is left of it: variance components (Foerstner 1979), with the traces
-// estimated by random signs.
+// Noise estimates from residuals by variance components (Foerstner 1979). The traces are estimated with random signs.
 
 #include <algorithm>
 #include <cmath>
@@ -10,11 +9,11 @@ namespace azimuth {
 namespace {
 
 constexpr int kProbes = 4;
-constexpr double kFewestTold = 8.0;  // residuals beyond the unknowns
+constexpr double kFewestTold = 8.0;  // least redundancy for an estimate
 constexpr double kLeast = 0.1, kMost = 10.0;
 
-/// What the weighted square of a residual is on average when all is as it was said: less than one, as the kernel pulls
-/// in the tails of a Gaussian too.
+/// Expected weighted squared residual of standard Gaussian noise within the scatter bound. It is below one, since the
+/// kernel also reduces the weight of a Gaussian's tails.
 double expected_chi2(RobustKernel kernel, double width) {
   constexpr double kStep = 0.01;
   const double end = std::sqrt(kScattersChi2);
@@ -34,7 +33,7 @@ Smoother::Noise noise_by(double chi2, double told) {
 
 }  // namespace
 
-/// How many residuals the unknowns have taken up, by random signs: of those that `signed_sum` sums up.
+/// Number of the residuals in `signed_sum` that the unknowns take up, estimated with random signs.
 template <typename SignedSum>
 double Smoother::taken_up(const SignedSum& signed_sum) const {
   double taken = 0.0;

@@ -38,7 +38,7 @@ void ThinnedPath::add_pose() {
 
 void ThinnedPath::forget(const BearingGraph& graph, std::span<const PoseId> poses) {
   std::vector<PoseNumber> left;
-  std::optional<OdometryMeasurement> way;  // from the last one that is left
+  std::optional<OdometryMeasurement> way;  // odometry from the last remaining pose
   auto next = poses.begin();
   for (PoseId id = 0; id < graph.poses(); ++id) {
     const PoseNumber number = numbers_[static_cast<std::size_t>(id)];
@@ -57,7 +57,8 @@ void ThinnedPath::forget(const BearingGraph& graph, std::span<const PoseId> pose
   numbers_ = std::move(left);
 }
 
-/// From a pose that the graph has: what a place is seen from may itself have been forgotten since.
+/// The way to a pose from a pose that the graph still has. It follows the chain of places, since a place's reference
+/// pose may itself have been removed later.
 ThinnedPath::Way ThinnedPath::way_to(PoseNumber number) const {
   Way way{.from = number};
   for (const Place* place = &places_[number]; place->from != way.from; place = &places_[way.from]) {
@@ -79,9 +80,10 @@ ThinnedPath::Told ThinnedPath::tell(PoseNumber number, const Smoother& smoother)
   return between(way, start, smoother);
 }
 
-/// With z odometry's way from a to a forgotten pose, of covariance S, and r how b, the next pose left, really lies to
-/// a, where odometry says o, of covariance O: b - o is what all the errors on the way add up to, of which the part
-/// before the pose is K (r - o), K = S J^T O^-1, and what is left of them is S - K O K^T. J = d(o) / d(z).
+/// The removed pose lies between a and b, the remaining poses before and after it. Odometry says z with covariance S
+/// for the way from a to the removed pose, and o with covariance O for the way from a to b; r is the estimated pose of
+/// b relative to a. The error r - o of the whole way is shared out: the part before the removed pose is K (r - o) with
+/// K = S J^T O^-1 and J = d(o) / d(z). The remaining covariance is S - K O K^T.
 ThinnedPath::Told ThinnedPath::between(const Way& way, PoseId start, const Smoother& smoother) {
   const BearingGraph& graph = smoother.graph();
   const OdometryMeasurement& whole = graph.odometry_to(start + 1);
@@ -98,7 +100,7 @@ ThinnedPath::Told ThinnedPath::between(const Way& way, PoseId start, const Smoot
       by_first(Eigen::Vector3d::Zero(), turned * relative) + turned * K * seen.by_start * turned.transpose();
   const Eigen::Matrix3d by_b = turned * K * seen.by_end * turned_by(b.heading_rad).transpose();
   Eigen::Matrix3d P = turned * (way.covariance - K * whole.covariance() * K.transpose()) * turned.transpose();
-  if (start == 0) {  // a constant
+  if (start == 0) {  // the first pose is a constant
     P += by_b * smoother.pose_covariance(start + 1) * by_b.transpose();
   } else {
     const std::array<Smoother::Unknown, 2> ends{Smoother::PoseOf{start}, Smoother::PoseOf{start + 1}};

@@ -11,36 +11,37 @@
 
 namespace azimuth {
 
-/// Of poses in the order of arrival, for ever: what a graph calls them changes when it forgets others.
+/// Permanent number of a pose in the order of arrival. A PoseId, in contrast, changes when the graph removes other
+/// poses.
 using PoseNumber = std::int32_t;
 
-/// Where the robot was at all poses that a graph has ever had: of those that it has forgotten, what odometry says of
-/// the way there from the last one before that is left.
+/// The path through all poses that a graph has ever had. For a removed pose, the path keeps the odometry from the last
+/// remaining pose before it.
 ///
-/// Thread contract: thread-bound. Copies share what is equal.
+/// Thread contract: thread-bound. Copies share equal parts.
 class ThinnedPath {
  public:
-  /// Of a graph that has its first pose.
+  /// Starts the path of a graph that has only its first pose.
   ThinnedPath() { add_pose(); }
 
-  /// The graph has a newest one.
+  /// Notes that the graph has a new newest pose.
   void add_pose();
-  /// The graph is about to forget these, ascending.
+  /// Must be called before the graph removes these poses, ascending.
   void forget(const BearingGraph& graph, std::span<const PoseId> poses);
 
   PoseNumber newest() const { return places_.size() - 1; }
-  /// Of the graph's poses.
+  /// The permanent number of each of the graph's poses.
   const std::vector<PoseNumber>& numbers() const { return numbers_; }
 
   struct Told {
     Pose2 T_map_body;
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< (x [m], y [m], heading [rad]) in the map
   };
-  /// As of the last optimise().
+  /// Pose and covariance as of the smoother's last optimise().
   Told tell(PoseNumber number, const Smoother& smoother) const;
 
  private:
-  /// A pose as seen from an earlier one: from itself as long as the graph has it.
+  /// A pose relative to an earlier pose `from`. A pose that the graph still has is its own `from`.
   struct Place {
     PoseNumber from = 0;
     std::array<float, 6> covariance{};  // lower triangle

@@ -40,7 +40,7 @@ class Enumeration {
     }
   }
 
-  /// Whether the next measurement and the landmark are of one kind.
+  /// Whether the next measurement and the landmark may be of the same kind.
   bool may_be(int landmark) const {
     return predicted_.kind.empty() ||
            same_kind(measured_[landmark_.size()].kind, predicted_.kind[static_cast<std::size_t>(landmark)]);
@@ -51,7 +51,7 @@ class Enumeration {
     return wrap(measured_[measurement].azimuth_rad - predicted_.azimuth_rad[landmark]);
   }
 
-  /// Of the measurements decided so far; nothing when a gate forbids it.
+  /// The log likelihood of the pairs decided so far; nullopt if a gate forbids one of them.
   std::optional<double> log_likelihood() const {
     std::vector<std::size_t> paired;
     for (std::size_t m = 0; m < landmark_.size(); ++m)

@@ -1,4 +1,4 @@
-// Large problems beside dlib's solver, where that is installed (scripts/setup --bench).
+// Compares the assignment of large problems with dlib's solver, if dlib is installed (scripts/setup --bench).
 
 #include <gtest/gtest.h>
 #include <random>
@@ -14,7 +14,7 @@ namespace {
 #if defined(AZIMUTH_HAS_DLIB)
 struct Profits {
   std::vector<double> values;
-  dlib::matrix<long long> padded;  // square, with rows that earn nothing
+  dlib::matrix<long long> padded;  // square: rows of zero profit fill it up
 };
 
 Profits random_profits(std::mt19937& engine, int rows, int columns, int largest) {
@@ -42,7 +42,7 @@ TEST(AssignmentBesideDlib, EarnsAsMuch) {
     std::vector<bool> used(static_cast<std::size_t>(columns), false);
     for (const int column : found) used[static_cast<std::size_t>(column)] = true;
     for (int column = 0; column < columns; ++column)
-      if (!used[static_cast<std::size_t>(column)]) all.push_back(column);  // to the rows of the padding
+      if (!used[static_cast<std::size_t>(column)]) all.push_back(column);  // the padding rows take the unused columns
     EXPECT_EQ(dlib::assignment_cost(profits.padded, all),
               dlib::assignment_cost(profits.padded, dlib::max_cost_assignment(profits.padded)));
   }

@@ -17,7 +17,7 @@ constexpr double kInf = std::numeric_limits<double>::infinity();
 struct PairingProblem {
   std::vector<double> values;
   std::size_t rows, columns;
-  std::vector<double> alone;  // empty: no row may stay alone
+  std::vector<double> alone;  // cost of leaving each row unassigned; empty: no row may stay unassigned
   PairingTable table() const { return {values, rows, columns}; }
 };
 
@@ -42,7 +42,7 @@ double value_of(const PairingProblem& problem, const std::vector<int>& column_of
   return sum;
 }
 
-/// Every way to give rows columns, by trying them all.
+/// The least cost over all assignments of the rows from `row` on, by trying every one of them.
 double exhaustive(const PairingProblem& problem, std::size_t row, unsigned used, std::size_t left_out) {
   if (row == problem.rows) return 0.0;
   double best = kInf;
@@ -126,8 +126,8 @@ TEST(Assignment, MaximisingIsMinimisingTheNegative) {
   }
 }
 
-/// No exhaustive search reaches this far, but weak duality does: shifting rows and columns changes every complete
-/// assignment by the same amount, so the optimal pairs stay the same.
+/// The problem is too large for an exhaustive search. Shifting the values of a row or a column changes the value of
+/// every complete assignment by the same amount, so the optimal assignment must stay the same.
 TEST(Assignment, ShiftsOfRowsAndColumnsChangeNothing) {
   std::mt19937 engine(4);
   std::uniform_real_distribution<double> shift(-50.0, 50.0);

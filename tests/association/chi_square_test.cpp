@@ -7,10 +7,10 @@ namespace {
 
 struct TableValue {
   int degrees_of_freedom;
-  double at_50, at_95, at_99, at_999, at_9999;  ///< quantiles of 0.5, 0.95, 0.99, 0.999 and 0.9999
+  double at_50, at_95, at_99, at_999, at_9999;  ///< Quantiles of 0.5, 0.95, 0.99, 0.999 and 0.9999
 };
 
-// Printed tables of the distribution.
+// Values from printed tables of the chi-square distribution.
 constexpr TableValue kTable[]{
     {1, 0.45494, 3.84146, 6.63490, 10.8276, 15.1367},  {2, 1.38629, 5.99146, 9.21034, 13.8155, 18.4207},
     {3, 2.36597, 7.81473, 11.3449, 16.2662, 21.1075},  {4, 3.35669, 9.48773, 13.2767, 18.4668, 23.5127},

@@ -24,12 +24,13 @@ BlockProblem random_problem(RandomDraws& draws) {
   for (Descriptor& descriptor : problem.stored) descriptor = random_descriptor(draws);
   for (Descriptor& descriptor : problem.wanted)
     descriptor = seen_again(problem.stored[static_cast<std::size_t>(draws.integer(0, 15))], 20.0, draws);
-  for (std::size_t q = 0; q < kQueriesAtOnce; ++q)  // one that is met exactly: below means below
+  // each bound equals one lane's distance: `near` means strictly below
+  for (std::size_t q = 0; q < kQueriesAtOnce; ++q)
     problem.bounds[q] = squared_distance(problem.wanted[q], problem.stored[static_cast<std::size_t>(3 * q)]);
   return problem;
 }
 
-/// The largest products and differences there are.
+/// The largest products and differences that descriptor values allow.
 BlockProblem extreme_problem() {
   BlockProblem problem;
   for (std::size_t lane = 0; lane < kLanes; lane += 2) problem.stored[lane].values.fill(255);

@@ -1,4 +1,4 @@
-// Searches of a DescriptorStore against going through every view.
+// The searches of a DescriptorStore compared with an exhaustive search over all views.
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 namespace azimuth {
 namespace {
 
-/// Keeps all, however near together they were seen from.
+/// Settings that keep every view, however near its place is to that of another view.
 DescriptorStoreSettings every_view() {
   DescriptorStoreSettings settings;
   settings.view_spacing_m = 0.0;
@@ -73,7 +73,7 @@ TEST(DescriptorSearch, FindsWhatAFullSearchFinds) {
     store.see(views.back().identity, views.back().looks, {}, views.back().from, 0.0);
   }
   std::vector<Descriptor> wanted;
-  for (int k = 0; k < 37; ++k)  // not a multiple of what is searched at once
+  for (int k = 0; k < 37; ++k)  // not a multiple of the number of queries searched at once
     wanted.push_back(seen_again(views[static_cast<std::size_t>(draws.integer(0, 699))].looks, 40.0, draws));
   const Eigen::Vector2d here(10.0, -5.0);
   std::vector<NearestTwo> found;

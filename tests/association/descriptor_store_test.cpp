@@ -61,14 +61,14 @@ TEST(DescriptorStore, KeepsViewsFromDifferentPlacesUpToTheirNumber) {
   std::vector<Descriptor> looks;
   for (int k = 0; k < 6; ++k) looks.push_back(random_descriptor(draws));
   store.see(1, looks[0], {}, {0.0, 0.0}, 0.0);
-  store.see(1, looks[1], {}, {0.3, 0.0}, 0.3);  // too near to the first: takes its place
+  store.see(1, looks[1], {}, {0.3, 0.0}, 0.3);  // too near to the first view, so it replaces it
   EXPECT_EQ(store.views_of(1), 1);
   EXPECT_EQ(find_one(store, looks[1]).nearest.squared_distance, 0);
   EXPECT_NE(find_one(store, looks[0]).nearest.squared_distance, 0);
   store.see(1, looks[2], {}, {2.0, 0.0}, 2.0);
   store.see(1, looks[3], {}, {4.0, 0.0}, 4.0);
   EXPECT_EQ(store.views_of(1), 3);
-  store.see(1, looks[4], {}, {4.9, 0.0}, 4.9);  // full: takes the place of the nearest one
+  store.see(1, looks[4], {}, {4.9, 0.0}, 4.9);  // the store is full, so this view replaces the nearest one
   EXPECT_EQ(store.views_of(1), 3);
   EXPECT_EQ(find_one(store, looks[4]).nearest.squared_distance, 0);
   EXPECT_NE(find_one(store, looks[3]).nearest.squared_distance, 0);
@@ -82,13 +82,13 @@ TEST(DescriptorStore, ForgetsWhatWasSeenRarelyAndLongAgo) {
   store.see(2, random_descriptor(draws), {}, {0.0, 0.0}, 2.0);
   store.see(3, random_descriptor(draws), {}, {0.0, 0.0}, 8.0);
   store.forget_unstable(12.0);
-  EXPECT_EQ(store.identities(), 3u);  // 10 m are not exceeded
+  EXPECT_EQ(store.identities(), 3u);  // a limit of 10 m is not exceeded yet
   store.forget_unstable(12.5);
   EXPECT_EQ(store.views_of(2), 0);
   EXPECT_EQ(store.views_of(3), 1);
   store.forget_unstable(1e6);
   EXPECT_EQ(store.views_of(3), 0);
-  EXPECT_EQ(store.views_of(1), 1);  // stable
+  EXPECT_EQ(store.views_of(1), 1);  // a stable identity is kept
   EXPECT_EQ(store.identities(), 1u);
 }
 
@@ -103,7 +103,7 @@ TEST(DescriptorStore, IsBoundedAndGivesUpTheUnstableFirst) {
   }
   EXPECT_EQ(store.views_of(1), 1);
   EXPECT_EQ(store.views_of(900), 0);
-  EXPECT_EQ(store.views_of(901), 1);  // the newest 99 beside the stable one
+  EXPECT_EQ(store.views_of(901), 1);  // the newest 99 identities stay beside the stable one
 }
 
 TEST(DescriptorStore, FullOfStableIdentitiesGivesUpTheOneNotSeenForLongest) {
@@ -125,7 +125,7 @@ TEST(DescriptorStore, ForgottenIdentityIsNotFound) {
   store.see(1, looks, {}, {0.0, 0.0}, 0.0);
   store.see(2, random_descriptor(draws), {}, {0.0, 0.0}, 0.0);
   store.forget(1);
-  store.forget(17);  // never heard of
+  store.forget(17);  // an unknown identity
   EXPECT_EQ(find_one(store, looks).nearest.identity, 2);
   EXPECT_EQ(store.views(), 1u);
 }

@@ -1,5 +1,5 @@
-// Directions against lamps that all look alike: what a hypothesis says of the rest, which pairings win, and what is
-// left alone.
+// Association of directions with lamps that all look alike: the conditioning of a hypothesis on its first pairs, the
+// choice of pairs, and the directions that stay unpaired.
 
 #include "slam/association/direction_matching.hpp"
 
@@ -26,7 +26,7 @@ TangentDirection direction_at(const Eigen::Vector2d& m, RandomDraws* draws = nul
           {sigma_azimuth_rad * sigma_azimuth_rad, kSigma_rad * kSigma_rad}};
 }
 
-/// A grid of lamps, seen from a true pose and predicted from a believed one.
+/// A grid of lamps, measured from the true pose and predicted from the believed pose.
 struct Scene {
   std::vector<Eigen::Vector2d> lamps, predicted;
   Eigen::MatrixXd covariance;
@@ -142,7 +142,7 @@ TEST(DirectionMatching, PairsWhatAnUncertainPoseLeavesPossible) {
   const Tally sure = tally(0.1, 0.01, 1, {}, 500), unsure = tally(1.0, degrees_to_rad(6.0), 2, {}, 500);
   EXPECT_GE(sure.all_right, 0.99 * sure.images);
   EXPECT_GE(sure.paired, 0.95 * sure.possible);
-  EXPECT_GE(unsure.all_right, 0.97 * unsure.images) << "nearest neighbours: 0.48 (SPEC part IV)";
+  EXPECT_GE(unsure.all_right, 0.97 * unsure.images) << "nearest neighbours: 0.48 (mathematics part IV)";
   EXPECT_GE(unsure.paired, 0.80 * unsure.possible) << "six degrees are beyond what is linear: some are left alone";
 }
 

@@ -48,7 +48,7 @@ TEST(FeaturePatterns, CountsMembersSeenAgainInAnyOrder) {
   for (int k = 0; k < 5; ++k) first.push_back(random_descriptor(draws));
   for (const int again : {4, 1, 1}) second.push_back(seen_again(first[static_cast<std::size_t>(again)], 10.0, draws));
   EXPECT_EQ(matched_members(first, second, 0.8), 2u);  // members 1 and 4
-  EXPECT_EQ(matched_members(second, first, 0.8), 3u);  // one member may serve several
+  EXPECT_EQ(matched_members(second, first, 0.8), 3u);  // one member may match several
   EXPECT_EQ(matched_members(first, second, 0.999), 0u);
   EXPECT_EQ(matched_members(first, std::vector<Descriptor>{}, 0.8), 0u);
 }
@@ -58,7 +58,8 @@ TEST(FeaturePatterns, PatternLeavesOutNeighboursThatAreNotThere) {
   BearingSet image;
   for (int k = 0; k < 3; ++k) image.descriptors.push_back(random_descriptor(draws));
   image.neighbours.resize(3);
-  image.neighbours[0].index = {2, 1, Neighbours::kNone, Neighbours::kNone, 9};  // 9: a set from elsewhere may lie
+  // 9: an index outside the set must be ignored
+  image.neighbours[0].index = {2, 1, Neighbours::kNone, Neighbours::kNone, 9};
   const Pattern pattern = pattern_of(image, 0);
   ASSERT_EQ(pattern.count, 2u);
   EXPECT_EQ(pattern.members[0], image.descriptors[2]);

@@ -1,4 +1,4 @@
-// Images with so many ways to explain them that branch and bound gives up.
+// The beam search on images with so many possible associations that branch and bound reaches its node limit.
 
 #include "slam/association/joint_beam.hpp"
 
@@ -12,7 +12,7 @@
 namespace azimuth {
 namespace {
 
-/// Landmarks of one colour, each vaguely known by itself, seen by a robot whose heading is not known well either.
+/// Landmarks of one kind with independent position errors, seen by a robot with an uncertain heading.
 struct Crowd {
   std::vector<double> predicted_rad;
   Eigen::MatrixXd covariance;
@@ -29,7 +29,7 @@ struct Crowd {
     }
   }
 
-  /// The best of what is found within so many nodes of the exact search.
+  /// The log likelihood of the best hypothesis when the exact search may visit `max_nodes` nodes.
   double best(int max_nodes, std::size_t beam_width = 256) const {
     JointCompatibility association;
     std::vector<Pairing> pairings;

@@ -13,7 +13,7 @@
 namespace azimuth {
 namespace {
 
-/// Landmarks crowded into a part of the view, seen by a robot of uncertain heading, so that gates overlap.
+/// Landmarks crowded into a part of the view, seen by a robot with an uncertain heading, so that gates overlap.
 struct Problem {
   std::vector<double> predicted_rad;
   Eigen::MatrixXd covariance;
@@ -29,9 +29,9 @@ Problem random_problem(RandomDraws& draws, int landmarks, int measurements, doub
   Problem problem;
   for (int l = 0; l < landmarks; ++l)
     problem.predicted_rad.push_back(wrap(centre_rad + draws.uniform(-half_view_rad, half_view_rad)));
-  const int sorts = draws.integer(1, 3);  // with some that could not be told
+  const int sorts = draws.integer(1, 3);  // kAnyKind included: the kind of some is unknown
   for (int l = 0; l < landmarks; ++l) problem.kinds.push_back(draws.integer(kAnyKind, sorts));
-  // What the heading's error moves, it moves together.
+  // A heading error moves all predicted azimuths by the same angle.
   problem.covariance = draws.covariance(landmarks, draws.uniform(0.002, 0.03));
   problem.covariance.array() += sigma_heading_rad * sigma_heading_rad;
   const double heading_error_rad = draws.normal(sigma_heading_rad);
@@ -53,7 +53,8 @@ std::vector<Pairing> associate(const Problem& problem, const JointGates& gates) 
   return pairings;
 }
 
-/// What the likelihoods of the likeliest hypotheses make of each measurement.
+/// The pairing of each measurement by the likeliest hypotheses: ambiguous if a rival within the likelihood ratio
+/// disagrees with the best hypothesis.
 std::vector<Pairing> believed(std::span<const JointHypothesis> hypotheses, double rival_log_ratio) {
   hypotheses = hypotheses.first(std::min(hypotheses.size(), JointCompatibility::kMostHypotheses));
   const JointHypothesis& best = hypotheses.front();
@@ -87,7 +88,7 @@ TEST_P(AgainstAllHypotheses, FindsTheLikeliestAndItsRivals) {
   for (int trial = 0; trial < 2000; ++trial) {
     SCOPED_TRACE(trial);
     gates.new_density_per_rad = draws.uniform(0.05, 5.0);
-    const double centre_rad = trial % 2 == 0 ? 0.0 : kPi;  // also across the wrap
+    const double centre_rad = trial % 2 == 0 ? 0.0 : kPi;  // every other problem straddles the wrap at pi
     const int landmarks = draws.integer(0, 4), measurements = draws.integer(0, 4);
     const Problem problem = random_problem(draws, landmarks, measurements, centre_rad);
     const auto hypotheses = all_hypotheses(problem.measured, problem.predicted(), gates);
@@ -133,7 +134,7 @@ TEST(JointCompatibility, KeepsNothingOfTheCallBefore) {
 TEST(JointCompatibility, OneBearingInTheWideGateOfALostRobotProvesNothing) {
   Problem problem{{0.3}, Eigen::MatrixXd::Constant(1, 1, 1.0), {{0.4, 4e-4}}};
   JointGates gates;
-  gates.new_density_per_rad = 0.5;  // the landmark's own is at most 0.4
+  gates.new_density_per_rad = 0.5;  // the landmark's own density is at most 0.4
   EXPECT_EQ(associate(problem, gates).front().landmark, kNoLandmark);
 
   // Three landmarks turned by the same angle confirm each other.
@@ -144,7 +145,7 @@ TEST(JointCompatibility, OneBearingInTheWideGateOfALostRobotProvesNothing) {
 }
 
 TEST(JointCompatibility, PrefersTheJointExplanationToTheNearestNeighbour) {
-  // The heading is off by 0.1: the bearing of the left landmark is nearest to where the right one is expected.
+  // The heading is off by 0.1 rad, so the left landmark's bearing is nearest to the right landmark's prediction.
   const Problem problem{
       {0.0, 0.1}, Eigen::Matrix2d::Constant(0.01) + 1e-6 * Eigen::Matrix2d::Identity(), {{0.1, 1e-5}, {0.2, 1e-5}}};
   JointGates gates;
@@ -171,7 +172,7 @@ TEST(JointCompatibility, BearingBetweenTwinsIsAmbiguousAndTheOthersAreNot) {
 }
 
 TEST(JointCompatibility, NodeLimitBoundsTheSearchAndLeavesALegalAnswer) {
-  // Thirty bearings and thirty landmarks in one another's gates: more hypotheses than could ever be tried.
+  // Thirty bearings and thirty landmarks lie in one another's gates: too many hypotheses for an exhaustive search.
   constexpr int kMany = 30;
   RandomDraws draws(24);
   Problem problem;
@@ -185,7 +186,7 @@ TEST(JointCompatibility, NodeLimitBoundsTheSearchAndLeavesALegalAnswer) {
   for (const int max_nodes : {1, 100, 20000}) {
     gates.max_nodes = max_nodes;
     gates.rival_log_ratio = 0.0;
-    const auto pairings = associate(problem, gates);  // returns at all
+    const auto pairings = associate(problem, gates);  // the search ends
     std::set<int> used;
     for (const Pairing& pairing : pairings)
       if (pairing.landmark != kNoLandmark) {

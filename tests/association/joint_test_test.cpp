@@ -13,7 +13,7 @@ constexpr double kProbability = 0.99;
 
 using Flags = std::vector<std::uint8_t>;
 
-/// Innovations that fit their covariance, before anything is spoilt.
+/// Innovations drawn from their covariance S, without outliers.
 struct Batch {
   std::vector<double> innovations;
   Eigen::MatrixXd S;
@@ -64,7 +64,7 @@ TEST(JointTest, LeavesAConsistentBatchAlone) {
   for (int trial = 0; trial < 300; ++trial) {
     const Batch batch = consistent_batch(draws, draws.integer(1, 8));
     const auto everyone = (1u << batch.innovations.size()) - 1;
-    if (!passes(batch, everyone)) continue;  // one in a hundred, as the confidence says
+    if (!passes(batch, everyone)) continue;  // happens in 1 of 100 batches, by the confidence
     ++consistent;
     EXPECT_EQ(subset_of(prune(batch)), everyone);
   }
@@ -94,7 +94,7 @@ TEST(JointTest, WhatIsLeftPassesAndIsNearlyAlwaysTheLargestSubset) {
       if (draws.chance(0.25)) innovation += draws.normal(0.5);
     const unsigned accepted = subset_of(prune(batch));
     EXPECT_TRUE(std::popcount(accepted) == 1 || passes(batch, accepted));
-    EXPECT_GE(std::popcount(accepted), 1);  // one alone has nothing to disagree with: the individual gate judges it
+    EXPECT_GE(std::popcount(accepted), 1);  // a single innovation is judged by its individual gate
     as_large += std::popcount(accepted) >= largest_passing(batch) ? 1 : 0;
   }
   EXPECT_GE(as_large, trials * 95 / 100);

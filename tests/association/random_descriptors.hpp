@@ -7,14 +7,14 @@
 
 namespace azimuth {
 
-/// Values over their whole range, which is harder on sums than what a front end makes.
+/// A descriptor with values over the whole range of a byte. Its sums are larger than those of real descriptors.
 inline Descriptor random_descriptor(RandomDraws& draws) {
   Descriptor descriptor;
   for (std::uint8_t& value : descriptor.values) value = static_cast<std::uint8_t>(draws.integer(0, 255));
   return descriptor;
 }
 
-/// The same seen again, each value with normal noise.
+/// The same descriptor with normal noise added to each value.
 inline Descriptor seen_again(const Descriptor& descriptor, double sigma, RandomDraws& draws) {
   Descriptor again;
   for (std::size_t i = 0; i < again.values.size(); ++i) {

@@ -34,7 +34,8 @@ TEST(ViewInterval, HoldsEveryLandmarkInReachOfBothPlaces) {
   EXPECT_GT(seen, 2000);
 }
 
-/// Whether some point in reach of both places lies on the ray and in that direction, by trying many.
+/// Whether some point on the ray is within reach of both places and is seen from `now` in the given direction, found by
+/// sampling the ray.
 bool possible_by_sampling(const Eigen::Vector2d& before, double ray_rad, const Eigen::Vector2d& now,
                           double direction_rad, double tolerance_rad) {
   constexpr int kSteps = 20000;
@@ -74,8 +75,8 @@ TEST(ViewInterval, WithoutMovingTheDirectionStays) {
 }
 
 TEST(ViewInterval, DrivingPastALandmarkAheadAllowsBothEnds) {
-  // Straight ahead on the ray: the landmark is in front or behind, and noise decides by which side the sweep of half a
-  // turn goes.
+  // The robot drives straight along the ray, so the landmark is in front or behind. Noise decides the side on which the
+  // interval sweeps its half turn.
   for (const double aside_m : {-1e-12, 0.0, 1e-12}) {
     const auto interval = view_interval({0.0, 0.0}, 0.0, {2.0, aside_m}, kReach_m);
     ASSERT_TRUE(interval);

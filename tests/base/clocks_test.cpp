@@ -7,7 +7,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A machine whose clock is set meanwhile fails here, once.
+/// Fails once if the machine's clock is set during the test.
 TEST(Clocks, WhatTheEpochIsAheadByLeadsFromTheOneToTheOther) {
   const auto epoch = epoch_minus_monotonic();
   const auto monotonic = std::chrono::steady_clock::now().time_since_epoch();

@@ -76,7 +76,7 @@ TEST_P(EveryCamera, CentreLooksAlongTheAxisAndItsAzimuthIsUncertain) {
   const auto covariance = model().direction_covariance(centre, 1.5);
   ASSERT_TRUE(covariance);
   EXPECT_TRUE(covariance->allFinite());
-  // As at the distance of kNearCentre_px; never less than farther out.
+  // The azimuth is as uncertain as at the radius kNearCentre_px, and less uncertain farther out.
   const double sigma_azimuth = std::sqrt((*covariance)(0, 0));
   EXPECT_GE(sigma_azimuth, 0.99 * 1.5 / ImageAxes::kNearCentre_px);
   const auto farther = model().direction_covariance(centre + Pixel{40.0, 0.0}, 1.5);

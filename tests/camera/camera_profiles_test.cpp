@@ -1,4 +1,4 @@
-// The profiles against the optics they stand for, each by another way than the code's.
+// The camera profiles, compared with the optics they describe. Each test uses another derivation than the code.
 
 #include <gtest/gtest.h>
 
@@ -9,13 +9,14 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Follows light through the plane of the mirror's axis (x outwards, z up, origin half-way between the foci): from the
-/// world towards the focus, reflected where it meets the hyperbola, into the camera's optical centre.
+/// Follows a light ray in the plane of the mirror's axis (x outwards, z up, origin half-way between the foci). The ray
+/// comes from the world towards the focus, is reflected where it meets the hyperbola, and enters the optical centre of
+/// the camera.
 double radius_by_reflection_px(const HyperbolicMirror& mirror, double elevation_rad) {
   const double a = mirror.a_mm, b = mirror.b_mm, c = std::hypot(a, b);
   const Vector2d focus{0.0, c}, camera{0.0, -c};
   const Vector2d out{std::cos(elevation_rad), std::sin(elevation_rad)};
-  // (c + s z)^2 / a^2 - (s x)^2 / b^2 = 1, the root on the sheet about the focus
+  // (c + s z)^2 / a^2 - (s x)^2 / b^2 = 1; the root lies on the sheet around the focus.
   const double qa = out.y() * out.y() / (a * a) - out.x() * out.x() / (b * b);
   const double qb = 2 * c * out.y() / (a * a), qc = c * c / (a * a) - 1;
   const double root = std::sqrt(qb * qb - 4 * qa * qc);
@@ -55,8 +56,8 @@ TEST(HyperbolicMirror, OnlyTheRatioOfItsSidesMatters) {
   EXPECT_NEAR(*larger.radius_px(0.1), *test::kHyperbolic.radius_px(0.1), 1e-9);
 }
 
-/// The unified model at xi = 1 is the parabolic mirror: r = gamma sin(theta) / (cos(theta) + 1), theta from straight
-/// down.
+/// At xi = 1 the unified model is the parabolic mirror: r = gamma sin(theta) / (cos(theta) + 1), with theta from
+/// straight down.
 TEST(ParabolicMirror, IsTheUnifiedModelAtOne) {
   for (double elevation = -1.5; elevation < 1.2; elevation += 0.01) {
     const double theta = elevation + kPi / 2;
@@ -92,7 +93,7 @@ TEST(EquidistantFisheye, IsALine) {
   EXPECT_FALSE(test::kEquidistant.radius_px(kPi / 2 - 1.51));
 }
 
-/// The lens of the rendered hall is nearly equidistant: b = d = 100 flattens tangent and sine.
+/// The lens of the rendered hall is nearly equidistant, because b = d = 100 flattens tangent and sine.
 TEST(EquidistantFisheye, IsTheLimitOfPajdlas) {
   const PajdlaFisheye nearly{11892.7456, 100, 11892.7456, 100, 1.5};
   for (double theta = 0.0; theta < 1.5; theta += 0.1) {

@@ -1,4 +1,4 @@
-// Cameras whose axis leans: every kind, tilted one way and the other.
+// Cameras with a tilted axis: every kind of camera, tilted in both directions.
 
 #include "slam/camera/camera_tilt.hpp"
 
@@ -25,7 +25,7 @@ class TiltedCamera : public testing::TestWithParam<std::tuple<NamedCamera, Camer
   const CameraModel& upright() const { return camera().model; }
   CameraModel model() const { return {upright().axes(), upright().profile(), tilt()}; }
 
-  /// Calls check(pixel) for pixels all over what the camera sees.
+  /// Calls check(pixel) for pixels spread over the camera's field of view.
   template <class Check>
   void over_the_image(const Check& check) const {
     int seen = 0;
@@ -67,12 +67,12 @@ TEST_P(TiltedCamera, PixelsComeBack) {
   });
 }
 
-/// A levelled pixel is where the upright camera sees the direction.
+/// The upright camera sees the direction at the levelled pixel.
 TEST_P(TiltedCamera, LevelledPixelsAreThoseOfTheUprightCamera) {
   int levelled = 0;
   over_the_image([&](const Pixel& pixel) {
     const auto level = model().level_pixel(pixel);
-    if (!level) return;  // beyond what the upright camera sees
+    if (!level) return;  // outside the upright camera's field of view
     ++levelled;
     ASSERT_NEAR((*upright().ray(*level) - *model().ray(pixel)).norm(), 0.0, 1e-12);
     ASSERT_NEAR((*model().tilted_pixel(*level) - pixel).norm(), 0.0, 1e-8);
@@ -92,7 +92,8 @@ TEST_P(TiltedCamera, JacobianIsTheDerivative) {
   EXPECT_GT(checked, 500);
 }
 
-/// Where the axis meets the image, azimuths of a camera that leans are as certain as those beside it.
+/// A tilted camera's azimuths near its optical axis are as certain as those beside the axis; only the zenith is
+/// singular.
 TEST_P(TiltedCamera, OnlyTheZenithIsUncertain) {
   if (std::max(std::abs(tilt().roll_rad), std::abs(tilt().pitch_rad)) < 0.03)
     GTEST_SKIP() << "the zenith is beside the axis";
@@ -127,7 +128,7 @@ TEST_P(TiltedCamera, TablesHoldItsDirections) {
   });
 }
 
-/// Roll lifts the left side, pitch lowers what is ahead.
+/// Roll raises what is on the left, and pitch lowers what is ahead.
 TEST(CameraTilt, IsRightHanded) {
   const CameraModel rolled({{320, 240}}, test::kParabolic, {.roll_rad = 0.1}),
       pitched({{320, 240}}, test::kParabolic, {.pitch_rad = 0.1});
@@ -152,7 +153,7 @@ TEST(CameraTilt, WithoutOneNothingChangesByABit) {
   }
 }
 
-/// To first order roll and pitch turn an azimuth by tan(elevation) times what of them lies across it.
+/// To first order, roll and pitch turn an azimuth by tan(elevation) times their component across the azimuth.
 TEST(CameraTilt, VarianceIsThatOfUnknownRollAndPitch) {
   constexpr double kSigma_rad = 1e-4;
   for (const double elevation_rad : {-0.9, -0.2, 0.0, 0.4, 1.2}) {

@@ -1,5 +1,5 @@
 #pragma once
-// One camera of each kind, of the size real ones have.
+// One camera of each kind, with image sizes of real cameras.
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ struct NamedCamera {
   CameraModel model;
   int width_px = 0;
   int height_px = 0;
-  double lowest_rad = 0.0;  ///< elevations it sees for certain
+  double lowest_rad = 0.0;  ///< Range of elevations that the camera certainly sees
   double highest_rad = 0.0;
 };
 inline std::ostream& operator<<(std::ostream& out, const NamedCamera& camera) { return out << camera.name; }
@@ -26,7 +26,7 @@ inline const ParabolicMirror kParabolic{285.403};
 inline const PajdlaFisheye kPajdla{180.0, 2.0, 60.0, 1.2, 1.6};
 inline const EquidistantFisheye kEquidistant{237.85, 1.5};
 
-/// That of a real fisheye camera.
+/// The profile of a real fisheye camera.
 inline const PolynomialFisheye kPolynomial{{-551.7655, 0.0, 8.372454e-4, -6.474789e-7, 1.235631e-9}, 1.5};
 
 inline std::vector<NamedCamera> cameras() {
@@ -41,7 +41,7 @@ inline std::vector<NamedCamera> cameras() {
           {"polynomial", {square, kPolynomial}, 1024, 768, 0.071, kPi / 2}};
 }
 
-/// Compares the Jacobian with numeric differentiation at a pixel; returns how many of its columns could be.
+/// Compares the Jacobian with numeric differentiation at a pixel. Returns the number of columns that it could compare.
 inline int expect_jacobian_is_derivative(const CameraModel& model, const Pixel& pixel) {
   constexpr double kStep_px = 1e-4;
   const auto jacobian = model.direction_jacobian(pixel);

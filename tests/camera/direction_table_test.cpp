@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kWidth_px = 320, kHeight_px = 260;
 
-/// A quarter of the usual size, so that tables are small.
+/// Cameras of a quarter of the usual size, so that their tables are small.
 std::vector<test::NamedCamera> small_cameras() {
   const ImageAxes square{{159.5, 129.25}, 1.0, -1, -kPi / 2};
   const ImageAxes flat{{160.0, 135.0}, 0.93, 1, 0.4};
@@ -31,7 +31,7 @@ TEST_P(DirectionTableOf, SkipsNoPixelAndHoldsItsDirection) {
       const auto exact = camera.direction({u, v});
       if (!exact || exact->elevation_rad > GetParam().highest_rad ||
           exact->elevation_rad < GetParam().lowest_rad + 0.02)
-        continue;  // pixels cut by the rim
+        continue;  // the rim cuts these pixels
       const auto cell = table.at({u, v});
       ASSERT_TRUE(cell) << u << ", " << v;
       ++seen;
@@ -55,7 +55,7 @@ TEST_P(DirectionTableOf, IsAsWideAsAPixel) {
       if (!exact || radius_px < 10.0 || exact->elevation_rad > GetParam().highest_rad - 0.1 ||
           exact->elevation_rad < GetParam().lowest_rad + 0.1)
         continue;
-      // Half a pixel along each axis, added up: its corners.
+      // Half a pixel along each axis; the sum is reached at the pixel's corners.
       const Eigen::Vector2d expected_rad = 0.5 * jacobian->cwiseAbs().rowwise().sum();
       const Eigen::Vector2d half_rad = table.at(pixel)->half_rad;
       for (const int k : {0, 1}) {
@@ -69,7 +69,7 @@ TEST_P(DirectionTableOf, IsAsWideAsAPixel) {
 TEST(DirectionTable, AzimuthsAreCircular) {
   const CameraModel camera({{80.0, 80.0}, 1.0, -1, -kPi / 2}, EquidistantFisheye{60.0, 1.3});
   const DirectionTable table(camera, 161, 161);
-  for (int v = 100; v < 150; ++v) {  // behind, where the azimuth jumps from pi to -pi
+  for (int v = 100; v < 150; ++v) {  // behind the robot the azimuth wraps from pi to -pi
     const auto cell = table.at({80, v});
     ASSERT_TRUE(cell);
     EXPECT_LT(std::abs(wrap(cell->middle.azimuth_rad - kPi)), 1e-2);

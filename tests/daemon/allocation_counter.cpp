@@ -14,7 +14,7 @@ namespace {
 std::atomic<bool> armed{false};
 std::atomic<std::uint64_t> allocations{0};
 
-/// Of the calling thread. Asked for with a system call that does not allocate itself.
+/// Whether the calling thread is counted. The system call that reads its name does not allocate.
 bool is_watched_thread() {
   char name[16] = {};
   prctl(PR_GET_NAME, name);
@@ -44,7 +44,7 @@ bool can_count_allocations() { return true; }
 extern "C" {
 
 // NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
-// glibc's own, under the names it keeps for those who replace the public ones.
+// glibc's own functions, under the names that it provides for programs that replace the public ones.
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);
 void* __libc_realloc(void* old, std::size_t size);

@@ -1,15 +1,15 @@
 #pragma once
-// Counts heap allocations of threads by their name, while armed. Link allocation_counter.cpp into the test program: it
-// replaces malloc and its relatives.
+// Counts the heap allocations of certain threads, selected by their names, while armed. allocation_counter.cpp must be
+// linked into the test program; it replaces malloc and its relatives.
 
 #include <cstdint>
 
 namespace azimuth::test {
 
-/// False under sanitizers, which bring a heap of their own.
+/// False under sanitizers, which replace the heap themselves.
 bool can_count_allocations();
 
-/// From now on allocations of the threads named "player", "perception" and "estimator" count.
+/// Starts to count the allocations of the threads named "player", "perception" and "estimator".
 void arm_allocation_counter();
 void disarm_allocation_counter();
 

@@ -1,5 +1,5 @@
-// Nothing allocates on the source's, the perception's and the estimator's threads once storage has grown; and the
-// counter that says so bites.
+// The threads of the source, the perception and the estimator do not allocate once their storage has grown. A further
+// test proves that the counter detects allocations.
 
 #include <array>
 #include <chrono>
@@ -21,11 +21,11 @@ using namespace std::chrono_literals;
 constexpr double kRun_s = 600.0;
 constexpr int kSettledAfter = 800, kWatchedUntil = 2200;  // of the run's 2400 bearing sets
 
-/// A pixel row for FakePerception in which six things are seen.
+/// A pixel row with which FakePerception finds six bearings.
 constexpr std::array<std::byte, 32> kImage{std::byte{6},   std::byte{20},  std::byte{60}, std::byte{100},
                                            std::byte{140}, std::byte{180}, std::byte{220}};
 
-/// The small run; images in place of its bearings if `with_images`.
+/// The source of the small run; with `with_images`, images replace its bearings.
 std::vector<std::unique_ptr<Source>> source(bool with_images) {
   Recording recording = test::small_recording(kRun_s);
   if (!with_images) return test::played(std::move(recording), 0.0);
@@ -38,13 +38,13 @@ std::vector<std::unique_ptr<Source>> source(bool with_images) {
   return sources;
 }
 
-/// `on_image` runs on the perception's thread at each image.
+/// `on_image` runs on the perception thread for each image.
 std::optional<PerceptionStage> perception(const test::FakePerception::OnImage& on_image = {}) {
   return std::optional<PerceptionStage>(std::in_place, std::make_unique<test::FakePerception>(on_image),
                                         PixelFormat::gray8);
 }
 
-/// Plays a run and counts what its middle part allocates; `in_update` runs on the estimator's thread at each set.
+/// Plays a run and counts the allocations in its middle part. `in_update` runs on the estimator thread for each set.
 std::uint64_t allocations_in_steady_state(
     std::vector<std::unique_ptr<Source>> sources, std::optional<PerceptionStage> perceives,
     const std::function<void()>& in_update = [] {}) {
@@ -73,7 +73,7 @@ std::uint64_t allocations_in_steady_state(
 
 void allocate() {
   const std::vector<int> careless(100);
-  asm volatile("" : : "r"(careless.data()) : "memory");  // or the compiler leaves it out
+  asm volatile("" : : "r"(careless.data()) : "memory");  // keeps the compiler from removing the allocation
 }
 
 class Allocation : public ::testing::Test {

@@ -23,7 +23,7 @@ class CameraSourceTest : public testing::Test {
     const auto limit = std::chrono::steady_clock::now() + 20s;
     while (std::chrono::steady_clock::now() < limit) {
       if (done()) return true;
-      bell_.ring();  // no sleep
+      bell_.ring();  // the turn must not sleep
       source_.turn(bell_, wires);
       status_wire_.take(status_);
       DeviceEvent event;

@@ -1,4 +1,4 @@
-// What becomes of a base on a CAN bus behind the wires of the pipeline.
+// A base on a CAN bus, from the source to the pipeline's wires.
 
 #include "daemon/devices/can_source.hpp"
 
@@ -16,7 +16,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A bus on which frames wait, until it is gone.
+/// The frames waiting on a bus, and whether the bus is gone.
 struct WaitingFrames {
   std::vector<CanFrame> frames;
   bool is_gone = false;
@@ -45,9 +45,9 @@ class CanSourceTest : public testing::Test {
  protected:
   CanSourceTest() {
     layout.battery = CanSignal{test::kRobotId, {0, 8}, CanNumber::unsigned_integer, 0.1};
-    layout.emergency_stop = CanFlagSignal{{test::kRobotId, {8, 1}}};
-    layout.bumper = CanFlagSignal{{test::kRobotId, {9, 1}}};
-    layout.charging = CanFlagSignal{{test::kRobotId, {10, 1}}};
+    layout.emergency_stop = CanSignal{test::kRobotId, {8, 1}};
+    layout.bumper = CanSignal{test::kRobotId, {9, 1}};
+    layout.charging = CanSignal{test::kRobotId, {10, 1}};
     source.emplace(CanSettings{}, layout, Duration{0}, [this](const std::string& name, std::span<const CanId>) {
       return waiting.is_gone ? OpenedCanLink(tl::unexpected(CanTrouble{name, "no such interface", 0}))
                              : OpenedCanLink(std::make_unique<WaitingLink>(waiting));
@@ -55,7 +55,7 @@ class CanSourceTest : public testing::Test {
   }
 
   void turn() {
-    bell.ring();  // no sleep
+    bell.ring();  // the turn must not sleep
     source->turn(bell, wires);
     status_wire.take(status);
   }
@@ -103,7 +103,8 @@ TEST_F(CanSourceTest, TellsOfAnInterfaceThatIsGoneAndComesBack) {
   turn();
   EXPECT_FALSE(status.works);
   EXPECT_THAT(status.text,
-              testing::StartsWith("away: can0: read: No such device"));  // a slow machine has missed values
+              // only the start: a slow machine adds missed values to the text
+              testing::StartsWith("away: can0: read: No such device"));
   waiting.is_gone = false;
   waiting.frames.clear();
   std::this_thread::sleep_for(30ms);

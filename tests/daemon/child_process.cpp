@@ -24,7 +24,7 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
 
 std::vector<std::string> whole_environment(const std::vector<std::string>& added) {
   std::vector<std::string> all = added;
-  for (char** entry = environ; *entry; ++entry) all.emplace_back(*entry);  // the first of one name counts
+  for (char** entry = environ; *entry; ++entry) all.emplace_back(*entry);  // the first entry of a name counts
   return all;
 }
 

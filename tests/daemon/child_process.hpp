@@ -1,5 +1,5 @@
 #pragma once
-// Programs under test as processes of their own.
+// Runs the programs under test as separate processes.
 
 #include <chrono>
 #include <filesystem>
@@ -12,10 +12,10 @@
 
 namespace azimuth::test {
 
-/// A running program. Its output goes into files. The destructor kills it if it still runs.
+/// A running program. Its output goes into files. The destructor kills the program if it still runs.
 class ChildProcess {
  public:
-  /// `environment` adds `NAME=value`s; `folder` receives the output.
+  /// `environment` adds entries of the form `NAME=value`. `folder` receives the output files.
   ChildProcess(std::vector<std::string> command, const std::filesystem::path& folder,
                const std::vector<std::string>& environment = {});
   ~ChildProcess();
@@ -25,7 +25,7 @@ class ChildProcess {
   pid_t pid() const { return pid_; }
   void signal(int number) const;
 
-  /// The exit code (128 + signal when one killed it), once it has ended; nothing when it has not within `limit`.
+  /// Waits for the end and returns the exit code (128 + signal if a signal killed it); nullopt after `limit`.
   std::optional<int> wait(std::chrono::milliseconds limit);
 
   std::string standard_output() const;
@@ -37,7 +37,7 @@ class ChildProcess {
   std::filesystem::path output_, error_;
 };
 
-/// Asks until it is true; false when it never is within `limit`.
+/// Polls the condition until it is true; returns false after `limit`.
 template <class Condition>
 bool eventually(const Condition& condition, std::chrono::milliseconds limit);
 

@@ -1,4 +1,4 @@
-// azimuthd as somebody meets it at the shell: what it prints and what it returns.
+// azimuthd at the command line: its output and its exit codes.
 
 #include <gmock/gmock.h>
 
@@ -86,7 +86,7 @@ TEST_F(CommandLine, SaysWhatItHasChecked) {
   EXPECT_EQ(all.error, "");
 }
 
-/// A robot whose configuration names its rig and its DBC file without a folder.
+/// A robot's configuration that names its rig and its DBC file by relative paths.
 class RelativePaths : public CommandLine {
  protected:
   void SetUp() override {

@@ -1,5 +1,5 @@
 #pragma once
-// The daemon as a process, with a service manager to tell of itself.
+// Runs the daemon as a process, with a service manager that it notifies.
 
 #include <gtest/gtest.h>
 #include <memory>
@@ -12,12 +12,12 @@
 
 namespace azimuth::test {
 
-/// Everything it reads and writes is in a folder of its own, and its LCM messages stay in its memory.
+/// All files of the daemon are in a temporary folder, and its LCM messages stay inside its process.
 class DaemonProcess : public ::testing::Test {
  protected:
   using Daemon = std::unique_ptr<ChildProcess>;
 
-  /// Starts `program` with `options` and, after them, `more`. `variables` are added to its environment.
+  /// Starts `program` with `options`, followed by `more`. `variables` are added to its environment.
   Daemon start_program(const std::string& program, const std::vector<std::string>& options,
                        const std::vector<std::string>& more, std::vector<std::string> variables = {}) const {
     std::vector<std::string> command{program, "--lcm-url", "memq://"};
@@ -26,11 +26,11 @@ class DaemonProcess : public ::testing::Test {
     variables.push_back(socket_.variable());
     return std::make_unique<ChildProcess>(command, folder_.path(), variables);
   }
-  /// The small run of so many seconds as a folder that it can play.
+  /// Writes the small run of the given duration and returns its folder.
   std::string write_small_run(double duration_s) const {
     return write_run(small_recording(duration_s), folder_.path() / "run").string();
   }
-  /// Whether it logs `words` within the minute.
+  /// Whether the daemon logs `words` within a minute.
   static bool says(const ChildProcess& daemon, const std::string& words) {
     return eventually([&] { return daemon.standard_error().find(words) != std::string::npos; },
                       std::chrono::seconds(60));

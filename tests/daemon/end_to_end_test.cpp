@@ -1,4 +1,4 @@
-// azimuthd and the real lcm-logger in a network namespace of their own (in_namespace.sh): every message is decoded and
+// azimuthd and the real lcm-logger in a network namespace of their own (in_namespace.sh). Every message is decoded and
 // compared with a replay inside this process.
 
 #include <bit>
@@ -24,7 +24,7 @@ using ::testing::IsEmpty;
 constexpr auto kPatience = 60s;
 constexpr double kRun_s = 15.0;
 
-/// Sent in this namespace so far, by everybody.
+/// Number of UDP datagrams sent in this network namespace so far.
 std::uint64_t datagrams_sent() {
   std::ifstream counters("/proc/self/net/snmp");
   for (std::string line; std::getline(counters, line);) {
@@ -36,7 +36,7 @@ std::uint64_t datagrams_sent() {
   return 0;
 }
 
-/// "N what" in the daemon's log.
+/// The number N of "N what" in the daemon's log; -1 if there is none.
 std::int64_t logged_number(const std::string& log, const std::string& what) {
   const std::size_t end = log.find(" " + what);
   if (end == std::string::npos) return -1;
@@ -54,8 +54,8 @@ class EndToEnd : public ::testing::Test {
     ASSERT_GT(expected_.estimates.back().landmarks.size(), 0U) << "a map worth comparing";
   }
 
-  /// Records one run of azimuthd with lcm-logger: all that was sent. The logger forgets messages, without a word, when
-  /// it does not get to run for a while on a busy machine; then the run is recorded anew.
+  /// Records one run of azimuthd with lcm-logger. On a busy machine the logger loses messages silently; the run is then
+  /// recorded anew, up to six times.
   test::RecordedMessages record(const std::vector<std::string>& options, const std::string& prefix = "") {
     for (int attempt = 1;; ++attempt) {
       test::RecordedMessages heard = record_once(options, prefix);
@@ -76,7 +76,7 @@ class EndToEnd : public ::testing::Test {
     const std::uint64_t sent_before = datagrams_sent();
     test::ChildProcess daemon(command, folder_.path());
     EXPECT_EQ(daemon.wait(kPatience), 0) << daemon.standard_error();
-    sent_ = datagrams_sent() - sent_before;  // each message is one datagram
+    sent_ = datagrams_sent() - sent_before;  // one datagram per message
     daemon_output_ = daemon.standard_output();
     daemon_log_ = daemon.standard_error();
     logger.finish();
@@ -93,7 +93,7 @@ class EndToEnd : public ::testing::Test {
   std::uint64_t sent_ = 0;
 };
 
-/// The bits of every number a pose message carries.
+/// Expects every number of the pose message to equal the estimate to the last bit.
 void expect_same_bits(const pose_cov_t& message, const Estimate& estimate) {
   const Eigen::Vector3d pose(message.x_m, message.y_m, message.heading_rad);
   EXPECT_EQ(pose, estimate.T_map_body.vector());
@@ -105,7 +105,8 @@ void expect_same_bits(const pose_cov_t& message, const Estimate& estimate) {
   EXPECT_EQ(static_cast<Health>(message.health), estimate.health);
 }
 
-/// Of all steps but the first, when there was no map; the run is without noise, so that what is used is hardly off.
+/// The first step has no expectations, because there is no map yet. The run has no noise, so the innovations of the
+/// used bearings are small.
 void expect_expectations(const test::RecordedMessages& heard) {
   ASSERT_GT(heard.expectations.size(), heard.sightings.size() / 2);
   double nis = 0.0;
@@ -127,7 +128,7 @@ TEST_F(EndToEnd, PosesAreThoseOfAReplayToTheLastBit) {
   std::map<std::int64_t, const Estimate*> by_stamp;
   for (const Estimate& estimate : expected_.estimates) by_stamp[to_us(estimate.stamp)] = &estimate;
 
-  // Bearings come later than the odometry of their instant, so a step may be older than the last prediction.
+  // Bearings come later than the odometry of the same instant, so a step may be older than the last prediction.
   std::int64_t last_utime[] = {-1, -1}, steps = 0;
   for (const pose_cov_t& message : heard.poses) {
     EXPECT_GT(message.utime, last_utime[message.predicted]);
@@ -188,7 +189,7 @@ TEST_F(EndToEnd, SamplesAreEchoedUnchanged) {
 }
 
 TEST_F(EndToEnd, WhatALogNeedsToBeReplayedIsSentAtOnceAndNowAndThen) {
-  const test::RecordedMessages heard = record({"--speed", "2"});  // 7.5 s
+  const test::RecordedMessages heard = record({"--speed", "2"});  // the run then takes 7.5 s
   std::map<std::string, int> times;
   for (const document_t& document : heard.documents) {
     ++times[document.name];

@@ -10,7 +10,7 @@ namespace {
 
 using Events = EveryOne<DeviceEvent, 16>;
 
-/// Of a driver, what there is to tell.
+/// The events of a driver.
 struct TalkativeDriver {
   bool take_event(std::string& event) { return events.pop(event); }
 
@@ -83,7 +83,7 @@ TEST_F(EventRelayTest, AllocatesNothingOnceStorageHasGrown) {
     ASSERT_TRUE(pass_one_on());
   }
   for (int i = 0; i < 40; ++i) {
-    driver_.events.push(line);  // which allocates, as drivers may
+    driver_.events.push(line);  // the driver's push allocates, as drivers may
     const std::size_t before = allocations();
     const bool passed = pass_one_on();
     EXPECT_EQ(allocations(), before);

@@ -1,4 +1,4 @@
-// azimuthd with an estimator that hangs for ever at the first bearing of kHangingIdentity.
+// azimuthd with an estimator that hangs for ever at the first bearing with the identity kHangingIdentity.
 
 #include <chrono>
 #include <thread>

@@ -1,6 +1,6 @@
 #pragma once
-// An estimator that is quick, predictable and deterministic: the pose is odometry, a landmark stands where the last
-// bearing to it met a fixed distance.
+// A fast, predictable and deterministic estimator: the pose is the odometry, and a landmark lies at a fixed distance
+// along the last bearing to it.
 
 #include <atomic>
 #include <cmath>

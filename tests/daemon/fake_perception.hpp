@@ -1,5 +1,5 @@
 #pragma once
-// A front end that is quick and predictable: the first bytes of an image say what is seen in it.
+// A fast and predictable front end: the first bytes of an image encode its bearings.
 
 #include <chrono>
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace azimuth::test {
 
-/// Byte 0 counts the bearings, byte k is the azimuth of the k-th in hundredths of a radian from -1.28.
+/// Byte 0 is the number of bearings. Byte k is the azimuth of bearing k, in units of 0.01 rad, with 128 for azimuth 0.
 class FakePerception final : public Perception {
  public:
   /// Called for each image, on the perception thread.

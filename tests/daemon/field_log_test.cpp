@@ -1,5 +1,5 @@
-// Field logs on their ways through other programs: what lcm-logger heard, what lcm-logplayer plays, and images that a
-// replay looks at anew. In a network namespace of its own (in_namespace.sh).
+// Field logs together with other programs: logs recorded by lcm-logger, logs played by lcm-logplayer, and images in
+// which a replay finds the bearings anew. Runs in a network namespace of its own (in_namespace.sh).
 
 #include <gmock/gmock.h>
 #include <sstream>
@@ -54,13 +54,13 @@ double duration_s(const std::vector<Heard>& events) {
 
 class FieldLog : public ::testing::Test {
  protected:
-  /// What it printed, having ended with that exit code.
+  /// Runs the command to its end, expects the exit code, and returns all that it printed.
   std::string output_of(const std::vector<std::string>& command, int code = 0) const {
     test::ChildProcess process(command, folder_.path());
     EXPECT_EQ(process.wait(kPatience), code) << process.standard_error();
     return process.standard_output() + process.standard_error();
   }
-  /// What lcm-logger wrote while the command ran.
+  /// The log that lcm-logger writes while the command runs.
   fs::path logged(const std::string& name, const std::vector<std::string>& command) const {
     const fs::path log = folder_ / name;
     test::LcmLogger logger(log, folder_.path());
@@ -68,8 +68,8 @@ class FieldLog : public ::testing::Test {
     logger.finish();
     return log;
   }
-  /// Played by lcm-logplayer into another log. The logger forgets messages when it gets no processor for a while; then
-  /// it is all done anew.
+  /// Plays the log with lcm-logplayer into another log. lcm-logger loses messages when it gets no processor time; then
+  /// everything is repeated.
   fs::path played_on(const fs::path& log, const std::string& speed) const {
     for (int attempt = 1;; ++attempt) {
       const fs::path copy = logged("copy.lcm", {"lcm-logplayer", "--speed=" + speed, log});
@@ -98,7 +98,7 @@ TEST_F(FieldLog, WhatLcmLoggerHeardIsReplayedAndPlayedOn) {
     log = logged("lab.lcmlog", {AZIMUTHD, "--play", run, "--speed", "5"});
     const std::string outcome = output_of(
         {"sh", "-c", std::string(AZIMUTH_COMMAND) + " replay " + log.string() + " --verify --quiet 2>&1 || true"});
-    if (outcome.empty()) break;  // the logger heard all of it
+    if (outcome.empty()) break;  // lcm-logger heard everything
   }
   expect_verified(log);
   expect_verified(log, {"--rig", run / "rig.toml"});
@@ -110,7 +110,7 @@ TEST_F(FieldLog, WhatLcmLoggerHeardIsReplayedAndPlayedOn) {
 
 TEST_F(FieldLog, ARecordedSessionIsPlayedAtItsPaceAndNothingIsLost) {
   test::write_run(test::small_recording(20.0), folder_ / "run");
-  // A rig that takes LCM several fragments.
+  // This rig is so long that LCM sends it in several fragments.
   const std::string rig = test::kSmallRig + std::string("# a long story\n") + std::string(300'000, '#') + '\n';
   test::write_text(folder_ / "run/rig.toml", rig);
   output_of({AZIMUTHD, "--play", folder_ / "run", "--speed", "max", "--record", folder_ / "log", "--lcm-url", "memq://",
@@ -126,7 +126,7 @@ TEST_F(FieldLog, ARecordedSessionIsPlayedAtItsPaceAndNothingIsLost) {
   expect_verified(copy);
 }
 
-/// The run's images without compression, as a camera would send them, in a log.
+/// Writes a log with the run's images uncompressed, as a camera would send them.
 void write_raw_log(const Run& run, const fs::path& file) {
   EventLogWriter log = *EventLogWriter::create(file);
   std::vector<std::byte> data;
@@ -146,7 +146,7 @@ void write_raw_log(const Run& run, const fs::path& file) {
 
 class FieldLogImages : public FieldLog {
  protected:
-  /// A short drive among coloured landmarks, with at most as many images as may wait for the disk.
+  /// Renders a short drive among coloured landmarks, with at most as many images as may wait for the disk.
   void SetUp() override {
     Scenario scenario = lab(1, 1);
     const Eigen::Vector2d start = scenario.path[0], ahead = (scenario.path[1] - start).normalized();

@@ -1,4 +1,4 @@
-// What becomes of odometry in a FIFO behind the wires of the pipeline.
+// Odometry from a FIFO, from the source to the pipeline's wires.
 
 #include "daemon/devices/fifo_source.hpp"
 
@@ -15,7 +15,7 @@ using Clock = FifoOdometer::Clock;
 class FifoSourceTest : public testing::Test {
  protected:
   void turn() {
-    bell_.ring();  // no sleep
+    bell_.ring();  // the turn must not sleep
     EXPECT_TRUE(source_.turn(bell_, wires_));
     status_wire_.take(status_);
     for (DeviceEvent event; events_wire_.pop(event);) events_.push_back(event.text);

@@ -1,4 +1,4 @@
-// FrameRecorderTurn: an image waits for its pose, for a moment only.
+// FrameRecorderTurn: an image waits for its pose, but only for a moment.
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ class FrameRecorderTurnTest : public testing::Test {
     KeptImage image{.stamp = stamp, .format = format, .bytes = std::vector<std::byte>(format.bytes())};
     ASSERT_TRUE(images_.push(image));
   }
-  /// After a turn that was rung.
+  /// Number of recorded events after one turn that the bell woke.
   std::uint64_t recorded() {
     bell_.ring();
     turn_();

@@ -1,4 +1,4 @@
-// Work beside the estimator's thread. Run under ThreadSanitizer.
+// Work on a helper thread beside the estimator's thread. The test also runs under ThreadSanitizer.
 
 #include "daemon/pipeline/helper_threads.hpp"
 
@@ -10,43 +10,43 @@
 namespace azimuth {
 namespace {
 
-TEST(ErrandThread, DoesTheWorkElsewhere) {
-  ErrandThread errand;
+TEST(TaskThread, DoesTheWorkOnAnotherThread) {
+  TaskThread runner;
   std::thread::id where;
-  errand.begin([&] { where = std::this_thread::get_id(); });
-  errand.finish();
+  runner.begin([&] { where = std::this_thread::get_id(); });
+  runner.finish();
   EXPECT_NE(where, std::thread::id());
   EXPECT_NE(where, std::this_thread::get_id());
 }
 
-TEST(ErrandThread, OneErrandAfterTheOther) {
-  ErrandThread errand;
-  std::vector<int> done;  // unguarded: finish() is what keeps the two threads apart
+TEST(TaskThread, OneTaskAfterTheOther) {
+  TaskThread runner;
+  std::vector<int> done;  // without a lock: finish() synchronises the two threads
   for (int i = 0; i < 1000; ++i) {
-    errand.begin([&done, i] { done.push_back(i); });
-    errand.finish();
+    runner.begin([&done, i] { done.push_back(i); });
+    runner.finish();
     ASSERT_EQ(done.back(), i);
   }
 }
 
-TEST(ErrandThread, FinishesWhatIsUnderWayBeforeItEnds) {
+TEST(TaskThread, FinishesWhatIsUnderWayBeforeItEnds) {
   for (int i = 0; i < 100; ++i) {
     bool done = false;
     {
-      ErrandThread errand;
-      errand.begin([&] { done = true; });
+      TaskThread runner;
+      runner.begin([&] { done = true; });
     }
     ASSERT_TRUE(done);
   }
 }
 
-TEST(ErrandThread, FinishingNothingDoesNothing) {
-  ErrandThread errand;
+TEST(TaskThread, FinishingNothingDoesNothing) {
+  TaskThread runner;
   int done = 0;
-  errand.finish();
-  errand.begin([&] { ++done; });
-  errand.finish();
-  errand.finish();
+  runner.finish();
+  runner.begin([&] { ++done; });
+  runner.finish();
+  runner.finish();
   EXPECT_EQ(done, 1);
 }
 

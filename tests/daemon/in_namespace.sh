@@ -1,6 +1,6 @@
 #!/bin/sh
-# Runs a command in a network namespace of its own, with nothing but a loopback that carries multicast: messages
-# neither leave the machine nor meet those of another test. Exit code 77: the system allows no such namespaces.
+# Runs a command in a network namespace of its own, which has only a loopback that carries multicast. Messages neither
+# leave the machine nor reach other tests. Exit code 77: the system does not allow such namespaces.
 set -eu
 prepare='ip link set lo up multicast on && ip route add 224.0.0.0/4 dev lo'
 for flags in -n -rn; do

@@ -1,4 +1,4 @@
-// Events as the journal gets them: a stand-in for its library keeps what it is sent.
+// Events as the journal receives them. A stand-in for the journal's library stores what it is sent.
 
 #include "daemon/journal/journal.hpp"
 

@@ -1,5 +1,5 @@
-// What a daemon that is killed while it keeps map and way leaves on the disk, and what the next start makes of that:
-// see the table in drivers/storage/kept_odometry.hpp.
+// A daemon is killed while it saves the map and the odometry since that map. The next start must find a consistent pair
+// of both on disk. See the table in drivers/storage/kept_odometry.hpp.
 
 #include <algorithm>
 #include <filesystem>
@@ -37,7 +37,7 @@ Content first_half(const Content& content) {
   return {content.begin(), content.begin() + static_cast<std::ptrdiff_t>(content.size() / 2)};
 }
 
-/// The n-th map of a drive.
+/// Map number n of a drive.
 MapSnapshot map_of(int n) {
   MapSnapshot map;
   map.stamp = Stamp{std::chrono::seconds(100 + n)};
@@ -51,7 +51,7 @@ class KilledKeeper : public testing::Test {
  protected:
   KilledKeeper() { odometer_.origin = 4; }
 
-  /// The robot has gone on, and `x_m` is how far it came since the n-th map.
+  /// Odometry since map n: the robot has driven `x_m` metres.
   OdometrySince since(int n, double x_m) {
     OdometrySince since;
     since.map = map_of(n).stamp;
@@ -66,7 +66,7 @@ class KilledKeeper : public testing::Test {
   }
   fs::path records() const { return kept_odometry_file(file_); }
 
-  /// What a start would find now.
+  /// The map and the odometry that a start would find on disk now.
   struct Found {
     std::size_t landmarks = 0;
     std::optional<double> way_m;
@@ -82,13 +82,13 @@ class KilledKeeper : public testing::Test {
 
   test::TemporaryFolder folder_;
   fs::path file_ = folder_ / "map.azmap";
-  std::vector<std::byte> bytes_;  // of a map
+  std::vector<std::byte> bytes_;  // an encoded map
   OdometerMemory odometer_;
   Stamp newest_{Duration{200'000'000}};
 };
 
-/// Map and way are kept as MapKeeper keeps them, one step at a time; after each of them, and half way through what is
-/// written to one file, the daemon is killed.
+/// Saves the map and the odometry since it in MapKeeper's order, step by step. The daemon is killed after each step and
+/// in the middle of each write to a file.
 class KilledStepByStep : public KilledKeeper {
  protected:
   void write_first_map() {
@@ -96,7 +96,7 @@ class KilledStepByStep : public KilledKeeper {
     ASSERT_TRUE(write_map(bytes_, file_));
     keeper_.map_is(map_of(1).stamp, map_checksum(bytes_));
   }
-  /// Expects to find one or, half way, the other.
+  /// Runs the step. Expects to find `after` when it is complete, and `before` when its write was only half done.
   void step(const std::string& what, const Found& before, const Found& after, const std::function<void()>& does) {
     Content old_records = content_of(records());
     does();
@@ -119,7 +119,7 @@ class KilledStepByStep : public KilledKeeper {
       keeper_.write();
     });
   }
-  /// From map `n` to the next, with `was` on the disk.
+  /// Replaces map `n` by the next map. `was` is on the disk before.
   void next_map(int n, const Found& was) {
     const MapSnapshot map = map_of(n + 1);
     const Found is{static_cast<std::size_t>(n + 1), 0.01};
@@ -171,7 +171,7 @@ TEST_F(KilledStepByStep, LeavesItBeforeTheNextStartHasHeardOfTheRobot) {
   write_way(2, 0.8, {2, 0.01});
 }
 
-/// Through MapKeeper, which cannot be killed in between, but can be kept from going on.
+/// Saves through MapKeeper. The test cannot kill it half way, but it can make its file operations fail.
 class KeeperInTrouble : public KilledKeeper {
  protected:
   MapKeeper keeper(bool saves = true) const {
@@ -208,14 +208,14 @@ TEST_F(KeeperInTrouble, HasTheRecordOnTheDiskBeforeTheMapAndKeepsTheOneBefore) {
 TEST_F(KeeperInTrouble, GoesOnWithTheWaySinceTheMapThatIsOnTheDisk) {
   MapKeeper maps = keeper();
   save(maps, 1, 0.1);
-  // GIVEN a disk that is full, as for a file that cannot be begun
+  // GIVEN a full disk, imitated by a file that cannot be created
   const fs::path in_the_way = file_.string() + ".new";
   const auto went = [&](double since_kept_m, int made, double since_made_m) {
     maps.odometry()->odometer_is(odometer_);
     maps.odometry()->robot_went({since(1, since_kept_m), since(made, since_made_m)});
     maps.odometry()->write();
   };
-  // WHEN one map after another does not come to it, and the robot drives on
+  // WHEN several maps in a row cannot be written while the robot drives on
   double way_m = 0.1;
   for (const int n : {2, 3, 4}) {
     fs::create_directories(in_the_way);
@@ -226,7 +226,7 @@ TEST_F(KeeperInTrouble, GoesOnWithTheWaySinceTheMapThatIsOnTheDisk) {
     EXPECT_EQ(found(), (Found{1, way_m})) << "several times a second, as ever";
     EXPECT_TRUE(maps.odometry()->knows_way());
   }
-  // THEN there is a whole pair at any time, and when there is room again
+  // THEN the disk holds a consistent pair of map and odometry at any time, also once there is room again
   fs::remove_all(in_the_way);
   went(way_m, 5, 0.0);
   EXPECT_TRUE(maps.save(map_of(5)));
@@ -249,7 +249,7 @@ TEST_F(KeeperInTrouble, ForgetsInPlaceWhereAFullDiskHasNoRoomForMore) {
 }
 
 TEST_F(KeeperInTrouble, KeepsWhereTheRobotIsBesideAMapThatStaysAsItIs) {
-  // GIVEN a map, and a robot that has been found on it
+  // GIVEN a map and a robot that has been localised on it
   encode(map_of(2), bytes_);
   ASSERT_TRUE(write_map(bytes_, file_));
   const Content before = content_of(file_);
@@ -263,9 +263,9 @@ TEST_F(KeeperInTrouble, KeepsWhereTheRobotIsBesideAMapThatStaysAsItIs) {
   way.map = located.stamp;
   maps.odometry()->odometer_is(odometer_);
   maps.odometry()->robot_went({way, {}});
-  // WHEN that is kept
+  // WHEN the robot's pose is saved
   maps.save(located);
-  // THEN the map is as it was, and a start knows of both
+  // THEN the map file is unchanged, and the next start knows both the map and the pose
   EXPECT_EQ(content_of(file_), before);
   EXPECT_FALSE(fs::exists(previous_map(file_)));
   DaemonSetup setup;

@@ -39,7 +39,7 @@ bool LcmLogger::hears() {
   return heard;
 }
 
-/// The logger has a queue and a thread of its own.
+/// lcm-logger writes from a queue on a thread of its own, so this waits until the file stops growing.
 void LcmLogger::finish() {
   std::uintmax_t size = 0;
   do {

@@ -1,5 +1,5 @@
 #pragma once
-// The real lcm-logger, in the network namespace of the test.
+// Runs the real lcm-logger in the network namespace of the test.
 
 #include <filesystem>
 
@@ -7,17 +7,18 @@
 
 namespace azimuth::test {
 
-/// One that records all channels into `log` from hears() on.
+/// An lcm-logger that records all channels into `log`, complete from hears() on.
 class LcmLogger {
  public:
-  static constexpr const char* kProbe = "PROBE";  ///< channel of the messages that hears() sends
+  static constexpr const char* kProbe = "PROBE";  ///< Channel of the messages that hears() sends
 
-  /// `folder` receives its output.
+  /// `folder` receives the program's output.
   LcmLogger(std::filesystem::path log, const std::filesystem::path& folder);
 
-  /// Sends probes until the logger has written one: from then on it hears everything. A failure when it never does.
+  /// Sends probes until the logger has written one; from then on the logger receives every message. Adds a test failure
+  /// if no probe is written in time.
   bool hears();
-  /// Waits until it has written what it heard, and ends it.
+  /// Waits until the logger has written all messages, and ends it.
   void finish();
 
  private:

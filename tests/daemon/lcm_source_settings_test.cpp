@@ -1,4 +1,4 @@
-// Which settings of an LCM source are refused: above all those that would feed the daemon its own messages.
+// Settings of an LCM source that are refused, above all those that would feed the daemon its own messages.
 
 #include <gmock/gmock.h>
 

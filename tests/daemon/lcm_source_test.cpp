@@ -1,4 +1,5 @@
-// The sources that hear another process, with the daemon's own sender as that process, on a loopback of their own.
+// The sources that receive messages from another process. The daemon's own sender takes the part of that process, on a
+// loopback in a separate network namespace.
 
 #include "daemon/devices/lcm_source.hpp"
 
@@ -122,7 +123,7 @@ TEST_F(LcmSourceTest, SaysThatTheSenderHasAnotherClock) {
 TEST_F(LcmSourceTest, ImagesComeFromAnotherProcess) {
   LcmCameraSource source(settings_, *parse_lcm_url(kUrl), epoch_minus_monotonic());
   ASSERT_TRUE(turn_until(source, [&] { return text_has("silent: nothing of use on CAMERA"); }));
-  for (std::uint8_t i = 1; i < 30; ++i) {  // more than there are slots
+  for (std::uint8_t i = 1; i < 30; ++i) {  // more images than there are slots
     send_image(i);
     Frame frame;
     ASSERT_TRUE(turn_until(source, [&] { return frames_.take(frame); }));

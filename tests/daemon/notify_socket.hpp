@@ -1,5 +1,5 @@
 #pragma once
-// The service manager's end of sd_notify.
+// The service manager's end of the sd_notify protocol.
 
 #include <chrono>
 #include <cstring>
@@ -13,7 +13,7 @@
 
 namespace azimuth::test {
 
-/// A real datagram socket in a folder, as systemd has one.
+/// A datagram socket in a folder, as systemd provides it.
 class NotifySocket {
  public:
   explicit NotifySocket(const std::filesystem::path& folder)
@@ -31,7 +31,7 @@ class NotifySocket {
 
   std::string variable() const { return "NOTIFY_SOCKET=" + path_.string(); }
 
-  /// The next message; empty when none comes within `limit`.
+  /// The next message; empty if none comes within `limit`.
   std::string receive(std::chrono::milliseconds limit) const {
     pollfd ready{.fd = fd_, .events = POLLIN, .revents = 0};
     if (poll(&ready, 1, static_cast<int>(limit.count())) != 1) return {};
@@ -40,7 +40,7 @@ class NotifySocket {
     return size > 0 ? std::string(buffer, static_cast<std::size_t>(size)) : std::string();
   }
 
-  /// Whether a message with `part` comes before `limit` has passed; others are dropped.
+  /// Whether a message that contains `part` comes within `limit`. Other messages are dropped.
   bool receives(const std::string& part, std::chrono::milliseconds limit) const {
     const auto end = std::chrono::steady_clock::now() + limit;
     for (;;) {
@@ -50,7 +50,7 @@ class NotifySocket {
     }
   }
 
-  /// Sends it a message of our own. False: it takes no more until somebody reads.
+  /// Sends the socket a message of the test's own. Returns false if the socket is full.
   bool takes(const std::string& message) const {
     const int sender = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
     sockaddr_un address{};
@@ -62,7 +62,7 @@ class NotifySocket {
     return sent >= 0;
   }
 
-  /// Drops what has come so far.
+  /// Drops all messages that have come so far.
   void drop_all() const {
     while (!receive(std::chrono::milliseconds(0)).empty()) {
     }

@@ -1,4 +1,4 @@
-// What is kept for the next start, and what that makes of it.
+// The odometry that is saved for the next start, and what the next start reads from it.
 
 #include "daemon/keep/odometry_keeper.hpp"
 
@@ -28,7 +28,7 @@ class OdometryKeeping : public testing::Test {
     since_.map = map_.map.stamp;
     since_.motion.T_start_end = {1.0, 2.0, 0.5};
   }
-  /// Each reading comes after the one before.
+  /// Saves the odometry with a newer reading than before.
   void keep() {
     since_.reading.stamp += Duration{1000};
     keeper_.odometer_is(odometer_);
@@ -155,8 +155,8 @@ TEST(MapKeeping, IsDueSoonWhenOnlyANewMapWouldTellWhereTheRobotIs) {
   EXPECT_TRUE(plain.is_due(now));
 }
 
-// One that is killed before an interval is over, again and again, would never save: the way since its map would become
-// too long to be believed.
+// A daemon that is repeatedly killed before a save interval has passed must not start the interval anew: it would never
+// save, and the odometry since its map would become too uncertain to use.
 TEST(MapKeeping, CountsFromTheMapThatAStartBeforeLeftThoughTheWayIsKnownALittleLater) {
   using namespace std::chrono_literals;
   const test::TemporaryFolder folder;

@@ -1,4 +1,4 @@
-// The path on its way to LCM: when it is worth telling, and in which pieces.
+// The path on its way to LCM: when it is published, and in which pieces.
 
 #include <gtest/gtest.h>
 #include <vector>

@@ -20,7 +20,7 @@ PerceptionStage stage(test::FakePerception::OnImage on_image = {}) {
   return {std::make_unique<test::FakePerception>(std::move(on_image)), PixelFormat::gray8};
 }
 
-/// A JPEG image of one grey, which compression leaves alone.
+/// A JPEG image of a uniform grey, which compression does not change.
 std::vector<std::byte> grey_jpeg(std::uint8_t grey) {
   const std::vector<std::byte> pixels(16 * 16, std::byte{grey});
   JpegEncoder encoder;
@@ -30,7 +30,7 @@ std::vector<std::byte> grey_jpeg(std::uint8_t grey) {
 
 Frame jpeg_frame(std::span<const std::byte> file) { return {nullptr, 0, kJpeg, file}; }
 
-/// Storage as the wires hand it back: full of something else.
+/// A used bearing set, as the wires return it: it still holds other data.
 BearingSet used_set() {
   BearingSet set{.stamp = stamp_from_us(1), .sequence = 99, .bearings = std::vector<Bearing>(7)};
   set.descriptors.resize(7);

@@ -1,5 +1,5 @@
-// Frames through the threads: none waits in a queue, every lease comes back, and what is looked at reaches the
-// estimator.
+// Frames through the threads: no frame waits in a queue, every lease is returned, and the bearings of each processed
+// frame reach the estimator.
 
 #include <algorithm>
 #include <atomic>
@@ -24,7 +24,7 @@ using namespace std::chrono_literals;
 using test::kSmallFrame;
 using test::SmallPool;
 
-/// A live camera and odometer in one: takes a picture each turn, whatever the pipeline does.
+/// A live camera and odometer in one. It takes an image in each turn, whether or not the pipeline keeps up.
 class LiveCamera final : public Source {
  public:
   struct Counts {
@@ -71,7 +71,7 @@ class LiveCamera final : public Source {
   Counts& counts_;
 };
 
-/// What the estimator was given, on its thread.
+/// Counts of what the estimator received, written on its thread.
 struct Given {
   std::atomic<std::uint64_t> sets{0}, bearings{0};
   std::atomic<bool> in_order{true};

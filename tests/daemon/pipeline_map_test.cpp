@@ -48,7 +48,7 @@ TEST_F(PipelineMap, IsSavedWhileTheRobotDrives) {
   }
   EXPECT_TRUE(said) << status.map.text;
   ASSERT_TRUE(fs::exists(previous_map(file_))) << "saved more than once";
-  const auto early = read_map(file_);  // with the pipeline running on
+  const auto early = read_map(file_);  // the pipeline is still running
   ASSERT_TRUE(early) << text(early.error());
   EXPECT_GT(early->map.landmarks.size(), 0u);
   pipeline.stop();
@@ -131,7 +131,8 @@ TEST(MapKeeper, IsDueOnceInAnInterval) {
   EXPECT_FALSE(never.is_due(start + 10000s));
 }
 
-// One that is killed before an interval is over would leave its map as old as it found it.
+// The interval counts from the age of the existing map. Otherwise a daemon that is killed before an interval has passed
+// would never renew its map.
 TEST(MapKeeper, CountsFromTheMapThatAStartBeforeLeft) {
   const test::TemporaryFolder folder;
   const fs::path file = folder.path() / "map.azmap";

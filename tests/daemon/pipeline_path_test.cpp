@@ -1,4 +1,4 @@
-// The past on its way from the estimator to LCM while the pipeline runs.
+// The estimated path on its way from the estimator to LCM while the pipeline runs.
 
 #include <gtest/gtest.h>
 #include <mutex>
@@ -23,7 +23,7 @@ Rig named_rig() {
   return rig;
 }
 
-/// What the publisher sends, from its thread.
+/// Collects the path messages that the publisher sends on its own thread.
 class Paths {
  public:
   Publisher publisher() {

@@ -1,4 +1,5 @@
-// Pictures on their way through the threads: of the image they say, with what was expected of that very image.
+// Pictures on their way through the threads: each picture shows the image that it names, with the expectations for
+// exactly that image.
 
 #include <fstream>
 #include <gtest/gtest.h>
@@ -15,7 +16,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Expects one landmark dead ahead.
+/// An estimator that expects one landmark straight ahead.
 class ExpectingEstimator final : public Estimator {
  public:
   void predict(const Motion& motion) override { inner_.predict(motion); }
@@ -42,7 +43,7 @@ CameraRig small_camera() {
   return rig;
 }
 
-/// An image that is as bright all over as its number says; two bearings in it, one of them ahead.
+/// Images whose brightness encodes their number. Each has two bearings, one of them straight ahead.
 class Images {
  public:
   ImageView read(std::size_t index) {
@@ -61,7 +62,7 @@ class PipelinePicture : public ::testing::Test {
  protected:
   std::string file() const { return (folder_.path() / "newest.jpg").string(); }
 
-  /// Plays 2 s of the small run with images in place of its bearings; without odometry if so wished.
+  /// Plays 2 s of the small run with images in place of its bearings; `with_odometry` keeps the odometry.
   std::uint64_t play(bool with_odometry) {
     Recording recording = test::small_recording(2.0);
     for (const BearingSet& set : recording.bearings) recording.frames.push_back(set.stamp);
@@ -81,7 +82,7 @@ class PipelinePicture : public ::testing::Test {
                       ThreadSettings{}, bell);
     pipeline.start();
     for (int i = 0; i < 600 && !pipeline.finished(); ++i) bell.wait(100ms);
-    if (!with_odometry) std::this_thread::sleep_for(1s);  // for as long as the painter waits
+    if (!with_odometry) std::this_thread::sleep_for(1s);  // as long as the painter waits for a pose
     pipeline.stop();
     return pipeline.digest().estimates();
   }
@@ -91,7 +92,7 @@ class PipelinePicture : public ::testing::Test {
     const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
     return decoder_.decode(std::as_bytes(std::span(text)), PixelFormat::rgb8);
   }
-  /// At a place of the image.
+  /// The colour of the picture at a pixel of the image.
   std::array<int, 3> colour_at(const ImageView& view, int u, int v) const {
     const std::uint8_t* const pixel = view.row(v + Canvas::kMargin_px) + 3 * (u + Canvas::kMargin_px);
     return {pixel[0], pixel[1], pixel[2]};
@@ -107,7 +108,8 @@ TEST_F(PipelinePicture, ShowsAnImageWithWhatWasExpectedOfIt) {
   const ImageView drawn = picture();
   ASSERT_EQ(drawn.format.width_px, kWidth_px + 2 * Canvas::kMargin_px);
   EXPECT_GE(colour_at(drawn, 3, kHeight_px - 4)[0], 60 - 8) << "an image of those played";
-  const auto explained = colour_at(drawn, kWidth_px / 2 + 30, kHeight_px / 2);  // ahead is right in this camera
+  // ahead is on the right in this camera's image
+  const auto explained = colour_at(drawn, kWidth_px / 2 + 30, kHeight_px / 2);
   EXPECT_GT(explained[1], explained[0] + 60) << "the colour of a bearing of no kind, in a gate";
   EXPECT_FALSE(std::filesystem::exists(file() + ".part"));
 }

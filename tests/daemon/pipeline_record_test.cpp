@@ -1,4 +1,5 @@
-// The recorder at the end of the pipeline: what it wrote is what the estimator took, so a replay gives the same bits.
+// The recorder at the end of the pipeline records exactly the samples that the estimator used, so a replay gives the
+// same estimates to the last bit.
 
 #include <gmock/gmock.h>
 #include <thread>
@@ -33,7 +34,7 @@ class PipelineRecord : public testing::Test {
     settings.min_free_mb = 1.0;
     return settings;
   }
-  /// The only session in the folder.
+  /// The only session in the recording folder.
   std::filesystem::path session() const { return std::filesystem::directory_iterator(folder_.path())->path(); }
 
   test::TemporaryFolder folder_;
@@ -59,7 +60,7 @@ TEST_F(PipelineRecord, IsPlayedAgainToTheSameBits) {
 
   const FileResult<std::vector<RecordedPose>> poses = read_recorded_poses(session());
   ASSERT_TRUE(poses);
-  ASSERT_FALSE(poses->empty());  // not every step is published when the run is played fast
+  ASSERT_FALSE(poses->empty());  // a fast run does not publish every step
   for (const RecordedPose& pose : *poses) {
     const Estimate& estimate = replayed.estimates.at(static_cast<std::size_t>(pose.step) - 1);
     EXPECT_EQ(pose.stamp, estimate.stamp);

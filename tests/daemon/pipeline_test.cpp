@@ -1,4 +1,5 @@
-// The threads together: every speed gives what a replay without threads gives, and start and stop may come at any time.
+// All threads together: playing at any speed gives the result of a replay without threads, and start and stop may come
+// at any time.
 
 #include "daemon/pipeline/pipeline.hpp"
 
@@ -23,7 +24,7 @@ Stages stages(Recording recording, double speed, FakeEstimator::OnUpdate on_upda
           .publisher = Publisher(quiet())};
 }
 
-/// Waits for the end of the recording; false when it does not come.
+/// Waits for the end of the recording; returns false on a timeout.
 bool wait_until_finished(Pipeline& pipeline, Doorbell& bell) {
   const auto limit = std::chrono::steady_clock::now() + 60s;
   while (!pipeline.finished() && std::chrono::steady_clock::now() < limit) bell.wait(100ms);
@@ -99,16 +100,16 @@ TEST(Pipeline, StopsWithinASecondInTheMiddleOfARun) {
   EXPECT_TRUE(pipeline.finished()) << "the last status is published also then";
 }
 
-/// What became of a pipeline that ended too early.
+/// The result of a pipeline that ended early.
 struct CutShort {
-  std::vector<std::uint64_t> updates;  ///< numbers of the sets that the estimator was given
+  std::vector<std::uint64_t> updates;  ///< Sequence numbers of the bearing sets that the estimator received
   bool started = false, stopped = false;
-  bool finished = false;        ///< with the last status published
-  std::uint64_t estimates = 0;  ///< in the digest
-  bool digest_is_told = false;  ///< by the last status
+  bool finished = false;        ///< Whether it published its last status
+  std::uint64_t estimates = 0;  ///< Number of estimates in the digest
+  bool digest_is_told = false;  ///< Whether the last status contains the digest
 };
 
-/// Every fifth is never started, every third ends without having been stopped.
+/// Runs a pipeline for a moment. Every fifth one is never started, and every third one is destroyed without a stop.
 CutShort cut_short(const Recording& recording, int round) {
   CutShort result;
   Doorbell bell;

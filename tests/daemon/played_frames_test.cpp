@@ -1,4 +1,4 @@
-// A recording's images through the threads, at any speed: what a replay without threads makes of them.
+// The images of a recording go through the threads at any speed and give the result of a replay without threads.
 
 #include <chrono>
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace {
 using namespace std::chrono_literals;
 using test::kSmallFrame;
 
-/// What the images of a recording show, one row of pixels each.
+/// The images of a recording, one row of pixels each.
 struct RecordedImages {
   std::vector<std::vector<std::byte>> files;
 
@@ -28,7 +28,7 @@ struct RecordedImages {
   }
 };
 
-/// Odometry as in small_recording(), and in place of its bearings images, some of which cannot be read.
+/// A recording with the odometry of small_recording() and images in place of its bearings. Some images are unreadable.
 std::pair<Recording, RecordedImages> recorded_images(double duration_s) {
   std::pair<Recording, RecordedImages> made{test::small_recording(duration_s), {}};
   auto& [recording, images] = made;
@@ -43,7 +43,7 @@ std::pair<Recording, RecordedImages> recorded_images(double duration_s) {
   return made;
 }
 
-/// The same without threads: what every playing of the images must come to.
+/// The replay without threads, which every playing of the images must match.
 test::Replayed replay_images(const Recording& recording, const RecordedImages& images) {
   Recording seen = recording;
   test::FakePerception perception;
@@ -59,7 +59,7 @@ test::Replayed replay_images(const Recording& recording, const RecordedImages& i
 
 struct Played {
   double speed;
-  std::chrono::microseconds detect;  ///< what finding bearings in an image takes
+  std::chrono::microseconds detect;  ///< Time to find the bearings in an image
 };
 std::ostream& operator<<(std::ostream& out, const Played& played) {
   return out << "speed " << played.speed << ", " << played.detect.count() << " us an image";

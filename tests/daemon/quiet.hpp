@@ -3,7 +3,7 @@
 
 namespace azimuth {
 
-/// Messages stay inside the process: no network.
+/// Settings that keep messages inside the process, without a network.
 inline PublishSettings quiet() {
   PublishSettings settings;
   settings.lcm_url = "memq://";

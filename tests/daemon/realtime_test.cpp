@@ -1,4 +1,4 @@
-// What the status says of real time: in force, refused, or not asked for.
+// The status of real-time scheduling: in force, refused, or not requested.
 
 #include "daemon/supervise/realtime.hpp"
 
@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Optional;
 
-/// A stage that has begun, with what became of its scheduling.
+/// A started stage, whose turns are counted.
 struct Begun {
   explicit Begun(const StageSpec& spec) : stage(spec, bell, [this] { turn(); }) {
     stage.start();

@@ -1,5 +1,5 @@
 #pragma once
-// Everything an lcm-logger heard, decoded.
+// All messages in a log of lcm-logger, decoded.
 
 #include <azimuth/document_t.hpp>
 #include <azimuth/expectations_t.hpp>
@@ -36,14 +36,14 @@ struct RecordedMessages {
   std::size_t undecodable = 0;
   std::size_t largest_bytes = 0;
 
-  /// Of our channels.
+  /// Number of messages on Azimuth's channels.
   std::size_t count() const {
     return poses.size() + bot_poses.size() + map_chunks.size() + paths.size() + statuses.size() + sightings.size() +
            expectations.size() + kept.size() + documents.size() + odometry.size() + bearings.size() + undecodable;
   }
 };
 
-/// `prefix` is taken off every channel's name; a channel without it is foreign.
+/// `prefix` is removed from every channel's name. A channel without the prefix is foreign.
 RecordedMessages read_messages(const std::filesystem::path& log, const std::string& prefix = "");
 
 }  // namespace azimuth::test

@@ -1,4 +1,4 @@
-// azimuthd told by SIGHUP to read its configuration anew, over a real process.
+// azimuthd as a process, which reads its configuration anew on SIGHUP.
 
 #include <csignal>
 #include <gmock/gmock.h>
@@ -18,12 +18,12 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 constexpr auto kReloadPatience = 60s;
-// Of six that are mapped, as soon as they are: how far one is may not be known yet.
+// Of the six landmarks, one may still be without a known distance when the map is saved.
 constexpr std::size_t kFewestSaved = 5;
 
 class Reload : public test::DaemonProcess {
  protected:
-  /// Plays a run of minutes five times as fast as it was.
+  /// Configures the daemon to play a run of several minutes at five times its speed.
   void configure(const std::string& more = {}) {
     test::write_text(file_, "[daemon.play]\nrun = \"" + run_ + "\"\nspeed = 5\n" + more);
   }
@@ -33,7 +33,7 @@ class Reload : public test::DaemonProcess {
     return daemon;
   }
   bool maps_all() const { return socket_.receives(" 6 landmarks", kReloadPatience); }
-  /// Its exit code after SIGTERM.
+  /// Sends SIGTERM and returns the exit code.
   static std::optional<int> end_of(test::ChildProcess& daemon) {
     daemon.signal(SIGTERM);
     return daemon.wait(kReloadPatience);
@@ -80,7 +80,7 @@ TEST_F(Reload, KeepsWhatWasInForceWhenAnythingIsWrongAndNamesIt) {
   EXPECT_THAT(daemon->standard_error(),
               AllOf(HasSubstr("unknown key 'gate_chi'"), HasSubstr("unknown section [daemon.lmc]"),
                     HasSubstr("the configuration is as it was before SIGHUP"), Not(HasSubstr("digest"))));
-  // Mended, it is taken.
+  // The corrected configuration is accepted.
   configure();
   daemon->signal(SIGHUP);
   EXPECT_TRUE(says(*daemon, "goes on with its ")) << daemon->standard_error();
@@ -164,7 +164,7 @@ TEST_F(Reload, BeginsASessionOfItsOwnThatAReplayRepeats) {
   configure("[daemon.record]\nfolder = \"" + records + "\"\n");
   const auto daemon = start();
   ASSERT_TRUE(maps_all()) << daemon->standard_error();
-  configure("[ekf]\ngate_chi2 = 8\n[daemon.record]\nfolder = \"" + records + "\"\n");
+  configure("[ekf]\nthinning_s = 0.8\n[daemon.record]\nfolder = \"" + records + "\"\n");
   daemon->signal(SIGHUP);
   ASSERT_TRUE(socket_.receives("READY=1", kReloadPatience));
   ASSERT_TRUE(maps_all()) << daemon->standard_error();
@@ -193,7 +193,7 @@ TEST_F(Reload, BeginsASessionOfItsOwnThatAReplayRepeats) {
                      configured_estimator(*rig, *configuration, run->map.empty() ? nullptr : &map), *rig);
     const std::string digest = "digest " + digest_text(replayed.digest.value());
     ASSERT_THAT(logged, HasSubstr(digest));
-    logged.erase(0, logged.find(digest) + digest.size());  // in this order
+    logged.erase(0, logged.find(digest) + digest.size());  // the digests come in this order
   }
 }
 

@@ -1,4 +1,4 @@
-// azimuthd started again from the map that it saved.
+// azimuthd restarted with the map that it saved.
 
 #include <csignal>
 #include <gmock/gmock.h>
@@ -23,7 +23,7 @@ class Restart : public test::DaemonProcess {
     return start_program(AZIMUTHD, {"--play", run_, "--set", "daemon.map.file=" + map_}, more);
   }
   static std::optional<int> end_of(test::ChildProcess& daemon) { return daemon.wait(kRestartPatience); }
-  /// To the recording's end; what it logged.
+  /// Plays the recording to its end and returns the daemon's log.
   std::string run_to_the_end(const std::vector<std::string>& more = {}) {
     std::vector<std::string> options{"--speed", "max"};
     options.insert(options.end(), more.begin(), more.end());
@@ -64,7 +64,7 @@ TEST_F(Restart, IsRecordedSoThatAReplayGivesTheSameBits) {
   const FileResult<azimuth::Run> run = load_run(std::filesystem::directory_iterator(records)->path());
   ASSERT_TRUE(run) << text(run.error());
   EXPECT_EQ(run->map, bytes_before) << "the very file, which the daemon has overwritten since";
-  // WHEN it is replayed with what it holds
+  // WHEN the log is replayed with the map and the documents it contains
   MapSnapshot map;
   ASSERT_FALSE(decode_map(std::as_bytes(std::span(run->map)), map));
   const auto configuration = read_configuration(run->configuration_toml, "azimuth.toml");
@@ -73,7 +73,7 @@ TEST_F(Restart, IsRecordedSoThatAReplayGivesTheSameBits) {
   const auto rig = read_rig(run->rig_toml, "rig.toml");
   const test::Replayed replayed =
       test::replay({run->odometry, run->bearings}, configured_estimator(*rig, *configuration, &map), *rig);
-  // THEN every bit is the same
+  // THEN the estimates are the same to the last bit
   EXPECT_THAT(logged, HasSubstr("digest " + digest_text(replayed.digest.value())));
 }
 
@@ -89,7 +89,7 @@ TEST_F(Restart, IsTrackingWithinSecondsAfterItWasKilled) {
     daemon->signal(SIGKILL);
     EXPECT_EQ(end_of(*daemon), 128 + SIGKILL);
   }
-  // WHEN it is started again, not knowing where it is
+  // WHEN the daemon is restarted and does not know its pose
   socket_.drop_all();
   const auto begin = Clock::now();
   const auto daemon = start({});

@@ -1,5 +1,5 @@
 #pragma once
-// The small run as a folder on disk.
+// Writes the small run to disk as a run folder.
 
 #include <filesystem>
 #include <fstream>

@@ -1,4 +1,4 @@
-// What a saved map says of where the robot is.
+// The information in a saved map on the robot's pose at the next start.
 
 #include "daemon/saved_map.hpp"
 
@@ -35,7 +35,7 @@ TEST(SavedMapReach, LimitsASearchWithinAMinuteUnlessTold) {
   EXPECT_EQ(reach_since(61s, {}), 0.0);
 }
 
-/// A map of landmarks that nothing tells apart, in a file.
+/// A file with a map of landmarks that have neither identities nor kinds.
 class NamelessMap : public testing::Test {
  protected:
   NamelessMap() {

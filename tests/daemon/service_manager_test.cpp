@@ -1,4 +1,4 @@
-// The service manager's socket, read or not.
+// Notifications to the service manager's socket, whether or not it is read.
 
 #include "daemon/supervise/service_manager.hpp"
 
@@ -19,7 +19,7 @@ namespace {
 using namespace std::chrono_literals;
 using ::testing::StartsWith;
 
-/// NOTIFY_SOCKET for as long as it lives.
+/// Sets the environment variable NOTIFY_SOCKET during its lifetime.
 class NotifyVariable {
  public:
   explicit NotifyVariable(const std::string& value) { setenv("NOTIFY_SOCKET", value.c_str(), 1); }
@@ -30,7 +30,7 @@ class NotifyVariable {
 
 class Notifications : public ::testing::Test {
  protected:
-  /// So many pings that the socket takes no more.
+  /// Sends pings until the socket is full.
   void fill() {
     for (int i = 0; i < 100'000; ++i) manager_.alive();
   }
@@ -60,7 +60,7 @@ TEST_F(Notifications, Arrive) {
 }
 
 TEST_F(Notifications, NobodyReadsAreNotWaitedFor) {
-  fill();  // would never come back, had it to wait
+  fill();  // a blocking send would never return
   manager_.status("unread");
   const int taken = drop_all();
   EXPECT_GT(taken, 0);
@@ -88,7 +88,7 @@ TEST_F(Notifications, OnlyTheNewestOfThemIsTriedAgain) {
   EXPECT_EQ(socket_.receive(1s), "WATCHDOG=1");
 }
 
-/// The log of what is done.
+/// The log of everything that happens while `done` runs.
 std::string logged(const std::function<void()>& done) {
   std::ostringstream text;
   const auto before = spdlog::default_logger();
@@ -100,7 +100,7 @@ std::string logged(const std::function<void()>& done) {
   return text.str();
 }
 
-/// What is logged of notifications to such a NOTIFY_SOCKET.
+/// The log of notifications that are sent with NOTIFY_SOCKET set to `value`.
 std::string logged_of(const std::string& value) {
   const NotifyVariable variable(value);
   return logged([] {

@@ -1,4 +1,4 @@
-// azimuthd as systemd meets it: readiness, status, watchdog and stop, over a real socket.
+// azimuthd under systemd: readiness, status, watchdog and stop, over a real notification socket.
 
 #include <csignal>
 #include <gmock/gmock.h>
@@ -16,7 +16,7 @@ constexpr auto kPatience = 30s;
 
 class Service : public test::DaemonProcess {
  protected:
-  /// Starts `program` on a run that lasts for minutes, with a watchdog of 600 ms.
+  /// Starts `program` on `run` with a watchdog of 600 ms.
   Daemon start(const std::string& program, const std::string& run, const std::vector<std::string>& more = {}) const {
     return start_program(program, {"--play", run}, more, {"WATCHDOG_USEC=600000"});
   }
@@ -95,7 +95,7 @@ TEST_F(Service, IsNotHeldUpByAServiceManagerThatDoesNotRead) {
   EXPECT_THAT(daemon->standard_error(), HasSubstr("cannot notify: Resource temporarily unavailable"));
 }
 
-/// As a user without any right: the daemon runs, and says what it lacks.
+/// Without privileges the daemon still runs, and reports what it lacks.
 TEST_F(Service, RunsWithoutRealTimeAndSaysSo) {
   if (geteuid() != 0) GTEST_SKIP() << "only root can become nobody";
   if (std::system("setpriv --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no setpriv";

@@ -1,4 +1,4 @@
-// The camera's source against a real server at the other end of the link.
+// The source of a shared camera, connected to a real camera server.
 
 #include "daemon/devices/shared_camera_source.hpp"
 
@@ -19,14 +19,14 @@ class SharedCameraSourceTest : public test::CameraLink {
  protected:
   enum class Wanted { bearings, frames };
 
-  /// Turns source and server until `done`; false when that does not come.
+  /// Runs the turns of source and server until `done`; returns false on a timeout.
   bool turn_until(Wanted wanted, CameraServer* server, const std::function<bool()>& done) {
     SourceWires wires{odometry_, wanted == Wanted::bearings ? &bearings_ : nullptr,
                       wanted == Wanted::frames ? &frames_ : nullptr, status_wire_, events_};
     const auto limit = std::chrono::steady_clock::now() + 20s;
     while (std::chrono::steady_clock::now() < limit) {
       if (done()) return true;
-      bell_.ring();  // no sleep
+      bell_.ring();  // the turn must not sleep
       source_.turn(bell_, wires);
       if (server) server->turn();
       status_wire_.take(status_);
@@ -59,7 +59,7 @@ TEST_F(SharedCameraSourceTest, HandsFramesOnWithTheirStampsOnOurClock) {
 TEST_F(SharedCameraSourceTest, ReplacedAndUnwantedFramesGoBackAtOnce) {
   CameraServer server = test::serve(path());
   ASSERT_TRUE(turn_until(Wanted::frames, &server, [&] { return server.has_client() && status_.works; }));
-  const unsigned many = 20;  // of 4 buffers
+  const unsigned many = 20;  // more than the 4 buffers
   for (const Wanted wanted : {Wanted::frames, Wanted::bearings}) {
     unsigned sent = 0;
     EXPECT_TRUE(turn_until(wanted, &server, [&] {

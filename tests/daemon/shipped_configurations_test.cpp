@@ -1,4 +1,4 @@
-// Every file below config/ is what it says it is.
+// Every file below config/ is valid and does what its name says.
 
 #include <filesystem>
 #include <gtest/gtest.h>
@@ -9,6 +9,7 @@
 #include "drivers/can/can_layout.hpp"
 #include "settings/configuration.hpp"
 #include "settings/file_text.hpp"
+#include "settings/retired_keys.hpp"
 #include "settings/rig.hpp"
 #include "slam/camera/make_camera.hpp"
 #include "slam/perception/make_perception.hpp"
@@ -33,7 +34,7 @@ struct Settings {
   DaemonSettings daemon;
 };
 
-/// Of a file that has to be right, rig and all.
+/// Reads a configuration file that must be valid together with its daemon settings.
 Settings read(const fs::path& file) {
   Settings settings;
   std::vector<Section> sections = daemon_sections(settings.daemon);
@@ -92,16 +93,16 @@ TEST(ShippedConfigurations, TheCanBaseFindsItsSignals) {
 
 TEST(ShippedConfigurations, PaperFilesSayWhatThePaperSays) {
   EkfSettings paper = paper_preset();
-  EXPECT_EQ(read(kConfig / "paper-colour.toml").configuration.ekf, paper);
   paper.identity = paper_identity_preset();
+  EXPECT_EQ(read(kConfig / "paper-colour.toml").configuration.ekf, paper);
   EXPECT_EQ(read(kConfig / "paper-sift.toml").configuration.ekf, paper);
 }
 
 TEST(ShippedConfigurations, CeilingCamerasRunEitherEstimatorOfLamps) {
   const Settings fastslam = read(kConfig / "ceiling-fastslam.toml"), ekf = read(kConfig / "ceiling-lamps.toml");
-  EXPECT_EQ(fastslam.configuration.estimator, "fastslam");
+  EXPECT_EQ(fastslam.configuration.estimator, EstimatorKind::fastslam);
   EXPECT_EQ(fastslam.configuration.fastslam, FastSlamSettings{});
-  EXPECT_EQ(ekf.configuration.estimator, "lamp_ekf");
+  EXPECT_EQ(ekf.configuration.estimator, EstimatorKind::lamp_ekf);
   EXPECT_EQ(ekf.configuration.lamp_ekf, LampEkfSettings{});
   for (const Settings* const ceiling : {&fastslam, &ekf}) EXPECT_EQ(ceiling->daemon.live.camera, CameraKind::shared);
   const Rig rig = read_rig_of("ceiling-fisheye");
@@ -109,21 +110,46 @@ TEST(ShippedConfigurations, CeilingCamerasRunEitherEstimatorOfLamps) {
   EXPECT_GT(rig.camera.image.viewpoint_height_m, 0.0) << "heights in the map would be above the camera";
 }
 
-/// Heading up in the image of a camera that looks up: the robot's left is on the right.
+/// With the heading up in the image, an upward-looking camera shows the robot's left on the right.
 TEST(ShippedConfigurations, TheCeilingCamerasImageIsNotFlipped) {
   std::string problem;
   const std::optional<CameraModel> camera = camera_of(read_rig_of("ceiling-fisheye").camera, problem);
   ASSERT_TRUE(camera) << problem;
-  EXPECT_LT(camera->pixel(Eigen::Vector3d(1.0, 0.0, 2.0))->y(), 300.0);  // ahead, above the middle at 383.5
-  EXPECT_GT(camera->pixel(Eigen::Vector3d(0.0, 1.0, 2.0))->x(), 600.0);  // to the left, right of 511.5
+  EXPECT_LT(camera->pixel(Eigen::Vector3d(1.0, 0.0, 2.0))->y(), 300.0);  // a point ahead lies above the middle at 383.5
+  // a point to the left lies to the right of 511.5
+  EXPECT_GT(camera->pixel(Eigen::Vector3d(0.0, 1.0, 2.0))->x(), 600.0);
 }
 
 TEST(ShippedConfigurations, PaperLampFilesSayWhatThePaperSays) {
   const auto settings_in = [](const char* name) { return read(kConfig / name).configuration; };
-  EXPECT_EQ(settings_in("paper-lamps.toml").estimator, "fastslam");
+  EXPECT_EQ(settings_in("paper-lamps.toml").estimator, EstimatorKind::fastslam);
   EXPECT_EQ(settings_in("paper-lamps.toml").fastslam, paper_fastslam_preset());
-  EXPECT_EQ(settings_in("paper-lamps-7deg.toml").estimator, "fastslam");
+  EXPECT_EQ(settings_in("paper-lamps-7deg.toml").estimator, EstimatorKind::fastslam);
   EXPECT_EQ(settings_in("paper-lamps-7deg.toml").fastslam, paper_7deg_fastslam_preset());
+}
+
+/// The number of keys stays small enough for a user to read all of them. Settings for developers only are members of
+/// their structs.
+TEST(ShippedConfigurations, HasNoMoreKeysThanAnOwnerReads) {
+  Configuration configuration;
+  DaemonSettings daemon;
+  std::vector<Section> all = configuration_sections(configuration);
+  for (Section& section : daemon_sections(daemon)) all.push_back(std::move(section));
+  std::size_t count = 11;  // keys of a signal in daemon.can.signal, which has no signal by default
+  for (const Section& section : all)
+    count += !section.elements               ? section.keys.size()
+             : section.elements->count() > 0 ? section.elements->keys(0).size()
+                                             : 0;
+  EXPECT_LE(count, 150U);
+}
+
+TEST(ShippedConfigurations, NoKeyOfTodayIsRetired) {
+  Configuration configuration;
+  DaemonSettings daemon;
+  std::vector<Section> all = configuration_sections(configuration);
+  for (Section& section : daemon_sections(daemon)) all.push_back(std::move(section));
+  for (const Section& section : all)
+    for (const Key& key : section.keys) EXPECT_FALSE(is_retired(section.name, key.name)) << section.name << key.name;
 }
 
 }  // namespace

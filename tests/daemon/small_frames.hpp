@@ -14,12 +14,13 @@ namespace azimuth::test {
 
 inline constexpr FrameFormat kSmallFrame = packed_format(PixelFormat::gray8, 16, 2);
 
-/// A camera driver's few buffers. Thread contract: as a driver, one thread; the leases may die anywhere.
+/// The few buffers of a camera driver. Thread contract: thread-bound, as a driver; leases may end on any thread.
 class SmallPool {
  public:
   static constexpr unsigned kSlots = 4;
 
-  /// A frame with `bearings` of them, the first at `azimuth` (see FakePerception); none: every buffer is leased.
+  /// A frame with `bearings` bearings, the first one at `azimuth` (see FakePerception); nullopt if every buffer is
+  /// leased.
   std::optional<Frame> make(Stamp stamp, std::uint64_t sequence, std::uint8_t bearings, std::uint8_t azimuth) {
     leased_ &= ~pool_->take_returned();
     const unsigned slot = static_cast<unsigned>(std::countr_one(leased_));
@@ -34,7 +35,7 @@ class SmallPool {
     frame.sequence = sequence;
     return frame;
   }
-  /// Buffers that have not come back.
+  /// Number of buffers that are still leased.
   int leased() {
     leased_ &= ~pool_->take_returned();
     return std::popcount(leased_);

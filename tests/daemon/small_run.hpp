@@ -1,5 +1,5 @@
 #pragma once
-// A run made on the spot: a circle driven among landmarks with known identities, and its replay without threads.
+// A generated run, a circle among landmarks with known identities, and its replay without threads.
 
 #include <cmath>
 #include <memory>
@@ -14,7 +14,7 @@ namespace azimuth::test {
 
 inline constexpr char kSmallRig[] = "front_end = \"bearings\"\n[camera]\nsigma_bearing_rad = 0.02\nidentities = true\n";
 
-/// 10 odometry readings and 4 bearing sets a second, of 6 bearings each.
+/// 10 odometry readings and 4 bearing sets per second, with 6 bearings each.
 inline Recording small_recording(double duration_s) {
   constexpr double kSpeed_m_per_s = 0.5, kRadius_m = 3.0, kLandmarks = 6;
   const auto pose_at = [](double t_s) {
@@ -49,14 +49,14 @@ inline Recording small_recording(double duration_s) {
   return recording;
 }
 
-/// The only source of a pipeline that plays `recording`.
+/// The only source of a pipeline, which plays `recording`.
 inline std::vector<std::unique_ptr<Source>> played(Recording recording, double speed) {
   std::vector<std::unique_ptr<Source>> sources;
   sources.push_back(std::make_unique<PlayedSource>(std::move(recording), speed));
   return sources;
 }
 
-/// What a run comes to without threads.
+/// The result of a run without threads.
 struct Replayed {
   std::vector<Estimate> estimates;
   EstimateDigest digest;

@@ -1,4 +1,4 @@
-// The status line, for people at a terminal.
+// The status line on a terminal.
 
 #include "daemon/supervise/status_display.hpp"
 

@@ -1,4 +1,4 @@
-// What people are told beside poses: what was expected of an image, what is kept, and how soon a status comes.
+// Messages beside poses: the expectations of an image, the saved files, health, and the pace of the status.
 
 #include <azimuth/pose_cov_t.hpp>
 #include <gtest/gtest.h>
@@ -29,9 +29,9 @@ void use(std::int64_t landmark, double azimuth_rad, StepResult& step) {
 
 TEST(ExpectationsMessage, SaysWhatWasExpectedAndHowFarOffItWas) {
   StepResult step = a_step(3);
-  step.expected.bearings[0].rejected_in_row = 4;  // of landmark 2
+  step.expected.bearings[0].rejected_in_row = 4;  // landmark 2, because the bearings are in descending order
   use(1, 0.001 + 0.2, step);
-  use(9, 0.0, step);  // nothing was expected of it
+  use(9, 0.0, step);  // a landmark without an expectation
   expectations_t message;
   fill_message(step, message);
   EXPECT_EQ(message.utime, 5'000'000);
@@ -122,7 +122,7 @@ TEST(PaceWatch, TellsOfBearingsLikewise) {
             "less to do (docs/tuning.md)");
 }
 
-/// What is told of an estimate that the estimator thinks well of.
+/// The published health for an estimate with the estimator's own health `health`.
 ToldHealth told(const DeviceStatus& odometer, const DeviceStatus& camera, Health health = Health::tracking) {
   Estimate estimate;
   estimate.health = health;

@@ -1,4 +1,4 @@
-// Hot-plug and port resets as sources use them; libusb is a stand-in (tests/drivers/usb/fake_libusb.hpp).
+// Hot-plug and port resets as the sources use them. libusb is replaced by tests/drivers/usb/fake_libusb.hpp.
 
 #include "daemon/devices/usb_help.hpp"
 
@@ -25,7 +25,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// Resets nothing, and remembers what it was asked for.
+/// A port resetter that resets nothing and records the requested ports.
 class AskedPorts {
  public:
   explicit AskedPorts(PortResetResult result = {true, "reset"}) : result_(std::move(result)) {}
@@ -84,7 +84,7 @@ TEST(PortResetter, NobodyWaitsForAResetAndNoneBeginsAtTheEnd) {
   PortResetResult result;
   EXPECT_FALSE(resetter->take(0, result));
   std::jthread destroys([&] { resetter.reset(); });
-  std::this_thread::sleep_for(50ms);  // so that the end is known before the reset returns
+  std::this_thread::sleep_for(50ms);  // the destructor runs before the reset returns
   may_end.count_down();
   destroys.join();
   EXPECT_EQ(begun, 1);
@@ -100,13 +100,13 @@ class UsbHelpTest : public ::testing::Test {
     while (help.take_event(event)) texts.push_back(event.text);
     return texts;
   }
-  /// Asks for a reset, and waits for its end if there is one.
+  /// Requests a reset and waits for its end; false if the request is refused.
   bool reset(UsbHelp& help) const {
     if (!help.reset("1-2", now_)) return false;
     EXPECT_TRUE(soon([&] { return help.take_end(); }));
     return true;
   }
-  /// After how many minutes the next reset is possible.
+  /// The number of minutes until the next reset is permitted.
   int minutes_to_next(UsbHelp& help) {
     for (int minutes = 1; minutes < 1000; ++minutes) {
       now_ += 1min;
@@ -183,14 +183,14 @@ TEST_F(UsbHelpTest, TheSameFailureIsToldOnceAndNotCounted) {
   EXPECT_EQ(help.resets(), 0U);
 }
 
-/// Turns a source and looks at what it says.
+/// Runs the turns of a source and collects its status and events.
 class SourceTest : public ::testing::Test {
  protected:
   bool turn_until(Source& source, const std::function<bool()>& done) {
     SourceWires wires{odometry_, nullptr, &frames_, status_wire_, events_wire_};
     for (const auto limit = std::chrono::steady_clock::now() + 20s; std::chrono::steady_clock::now() < limit;) {
       if (done()) return true;
-      bell_.ring();  // no sleep
+      bell_.ring();  // the turn must not sleep
       source.turn(bell_, wires);
       status_wire_.take(status_);
       DeviceEvent event;
@@ -230,7 +230,7 @@ TEST_F(PioneerSourceTest, ASilentAdapterIsLetGoOfAndItsPortReset) {
   EXPECT_THAT(asked.ports(), ElementsAre("1-2"));
   EXPECT_THAT(events_, testing::Contains(HasSubstr("let go of")));
   EXPECT_THAT(events_, testing::Contains("odometer: USB port 1-2: reset"));
-  // The robot answers now, and soon: the source was woken by the end of the reset.
+  // The robot answers now. The end of the reset wakes the source, so it connects within moments.
   ASSERT_TRUE(turn_until(source, [&] {
     robot_.serve();
     robot_.send(controller_.cycle());
@@ -249,7 +249,7 @@ TEST_F(PioneerSourceTest, WhatIsNotPluggedInByUsbIsNeverReset) {
 
 class UsbCameraTest : public SourceTest {
  protected:
-  /// A camera that has given one image, and gives no more.
+  /// The camera gives one image and then falls silent.
   bool fall_silent(CameraSource& source) {
     const auto now = std::chrono::duration_cast<Duration>(CameraSource::Clock::now().time_since_epoch());
     device_.images.push_back({ImageStream::Read::image, 0, Stamp{now}});

@@ -1,4 +1,4 @@
-// Both wires raced by two threads: nothing is lost that is not counted, nothing comes twice, nothing comes torn.
+// Two threads race on both kinds of wire: every lost sample is counted, and none is duplicated or torn.
 
 #include "daemon/pipeline/wires.hpp"
 
@@ -19,7 +19,7 @@ using namespace std::chrono_literals;
 
 constexpr std::uint64_t kSamples = 200'000;
 
-/// A sample whose parts belong together: torn reads and mixed-up storage show.
+/// A sample with redundant parts, so that torn reads and mixed-up storage show.
 struct Sample {
   std::uint64_t number = 0;
   std::vector<std::uint64_t> copies;
@@ -37,7 +37,7 @@ struct Sample {
   }
 };
 
-/// What a reader saw.
+/// The samples that a reader received.
 struct Account {
   std::uint64_t read = 0, last = 0;
   bool in_order = true, whole = true;
@@ -50,7 +50,7 @@ struct Account {
   }
 };
 
-/// Now and then a pause, so that both full and empty wires are met.
+/// Pauses now and then, so that the wire is sometimes full and sometimes empty.
 class Pauses {
  public:
   explicit Pauses(unsigned seed) : random_(seed) {}
@@ -104,7 +104,7 @@ TEST(EveryOne, MadeIsReadPlusRefused) {
   EXPECT_TRUE(account.whole);
 }
 
-/// Sleeps until rung; false when the bell did not ring for so long that it was lost.
+/// Sleeps until the bell rings; false if it did not ring within 4 s, which means that the ring was lost.
 bool sleeps_until_rung(Doorbell& bell) {
   const auto start = std::chrono::steady_clock::now();
   bell.wait(5s);

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Checks what documents say of the programs: that commands and options exist, that keys of settings do, and that
-docs/reference.md has every command.
+"""Checks the documents' statements about the programs: commands, options and keys of settings must exist, and docs/reference.md
+must have every command.
 
 usage: command_lines.py SOURCE_TREE AZIMUTH AZIMUTHD AZIMUTH_SIM      exit code 0: right, 1: not, one `file: message` each
 """
@@ -15,7 +15,7 @@ sys.path[:0] = [str(HERE.parents[2] / "scripts/lib"), str(HERE.parents[2] / "pac
 import programs  # noqa: E402
 from html_pages import documents  # noqa: E402
 
-NOT_OF_NOW = {"CHANGELOG.md", "docs/wrong-uses.md"}  # tell of what was, and of what is wrong
+NOT_OF_NOW = {"CHANGELOG.md", "docs/wrong-uses.md"}  # describe earlier versions and wrong commands
 REFERENCE = "docs/reference.md"
 FENCE = re.compile(r"^```sh\n(.*?)^```", flags=re.M | re.S)
 TOML = re.compile(r"^```toml\n(.*?)^```", flags=re.M | re.S)
@@ -26,12 +26,12 @@ FILES = (".toml", ".csv", ".png", ".azmap", ".json", ".md", ".txt", ".sock", ".j
 
 
 def shell_lines(text):
-    """Of a fence: commands without comments, continued lines joined."""
+    """The commands of a fence, without comments and with continued lines joined."""
     return [line.strip() for line in re.sub(r"(?:^|\s)#.*$", "", text.replace("\\\n", " "), flags=re.M).splitlines() if line.strip()]
 
 
 def commands_in(line, names):
-    """Words of each of our programs' calls in a line of shell."""
+    """Yields the words of each call of our programs in a line of shell."""
     for call in re.split(r"&&|\|\||[;|]", line):
         try:
             words = shlex.split(call)
@@ -42,7 +42,7 @@ def commands_in(line, names):
 
 
 def word_problem(words, roots):
-    """What is wrong with the commands and options of one call; nothing: they exist."""
+    """The first command or option of a call that does not exist, as a message; None if all exist."""
     command = roots[words[0]]
     for word in words[1:]:
         below = {each.name: each for each in command.commands}
@@ -66,7 +66,7 @@ def key_problem(span, known):
 
 
 def toml_problems(text, known):
-    """Of a piece of a configuration or a rig."""
+    """Yields the unknown keys in a piece of a configuration or of a rig."""
     table = ""
     for line in text.splitlines():
         if found := re.match(r"\[+([\w.]+)\]", line):
@@ -94,13 +94,13 @@ def violations(tree, roots, known):
     reference = (tree / REFERENCE).read_text(encoding="utf-8")
     rows = "\n".join(re.findall(r"^\| (`azimuth.*)$", reference, flags=re.M))
     for command in roots["azimuth"].commands:
-        if command.name != "version" and not re.search(rf"`azimuth {command.name}\b", rows):
+        if not re.search(rf"`azimuth {command.name}\b", rows):
             yield f"{REFERENCE}: lacks azimuth {command.name}"
 
 
 def keys(azimuth, azimuthd):
-    tables = programs.tables(programs.said(azimuthd, "--print-settings", "--all")) + programs.tables(programs.said(azimuth, "settings", "--rig"))
-    # Printed as tables in a list only where there are any.
+    tables = programs.tables(programs.said(azimuthd, "--print-settings")) + programs.tables(programs.said(azimuthd, "--print-rig-settings"))
+    # The programs list this table only if it has entries.
     return {table.full_name(key) for table in tables for key in table.keys} | {"daemon.can.signal"}
 
 
@@ -112,9 +112,9 @@ def main():
     known = keys(azimuth, azimuthd)
     if not word_problem(["azimuth", "map", "sav"], roots) or not word_problem(["azimuth", "replay", "--verfy"], roots):
         sys.exit("wrong commands are not found: this test cannot fail")
-    if not key_problem("ekf.gate_ch2", known) or key_problem("ekf.gate_chi2 = 9", known):
+    if not key_problem("ekf.thining_s", known) or key_problem("ekf.thinning_s = 9", known):
         sys.exit("wrong keys are not found: this test cannot fail")
-    if list(toml_problems('[ekf]\npreset = "x"\n', known)) or not list(toml_problems("[ekf]\npre = 1\n", known)):
+    if list(toml_problems('[ekf]\nthinning_s = "x"\n', known)) or not list(toml_problems("[ekf]\npre = 1\n", known)):
         sys.exit("wrong keys of TOML are not found: this test cannot fail")
     found = list(violations(tree, roots, known))
     print("\n".join(found) if found else "documents: every command, option and key is there")

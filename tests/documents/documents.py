@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Checks that what is cited is there: sections of docs/mathematics.md (SPEC), documents, their headings, links in them.
+"""Checks that citations exist: sections of docs/mathematics.md (`mathematics I.7`), documents, their headings and
+links.
 
 usage: documents.py SOURCE_TREE      exit code 0: clean, 1: not, one `file:line: message` each
 """
@@ -14,30 +15,29 @@ import tree_check  # noqa: E402
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts/lib"))
 from html_pages import documents, is_local, slugs  # noqa: E402
 
-TOPS = ("base", "slam", "drivers", "picture", "settings", "daemon", "sim", "tools", "tests", "bench", "lcmtypes", "config", "systemd", "cmake",
-        "scripts", "packaging", "docs", "examples", "man")
+TOPS = ("base", "slam", "drivers", "settings", "daemon", "sim", "tools", "tests", "config", "cmake", "scripts", "packaging", "docs")
 SUFFIXES = {".hpp", ".cpp", ".py", ".sh", ".txt", ".cmake", ".lcm", ".toml", ".service", ".rules", ".md", ".mdoc", ".yml", ""}
 
-GAP = r"(?:[\s/#*!<]+)"  # also where a comment goes on in the next line
+GAP = r"(?:[\s/#*!<]+)"  # also matches the beginning of a continued comment line
 NUMBER = r"[IVX]+\.\d+"
-SPEC = re.compile(rf"\bSPEC\b(?:{GAP}(?:(?P<part>part{GAP}(?P<roman>[IVX]+)\b)|(?P<first>{NUMBER})"
-                  rf"(?P<more>(?:(?:,|;| and| to){GAP}(?:part{GAP}[IVX]+\b|{NUMBER}))*)|(?P<any>section\b)))?")
-DOCUMENT = re.compile(rf"\b(?P<name>docs/[\w-]+\.md|README|CONTRIBUTING|CHANGELOG)\b(?P<heading>,{GAP}\"(?P<title>[^\"]+)\")?")
-# index.md is what the site calls README.
+CITATION = re.compile(rf"\bmathematics{GAP}(?:part{GAP}(?P<roman>[IVX]+)\b|(?P<first>{NUMBER})"
+                      rf"(?P<more>(?:(?:,|;| and| to){GAP}(?:part{GAP}[IVX]+\b|{NUMBER}))*))")
+DOCUMENT = re.compile(rf"\b(?P<name>docs/(?:notes/)?[\w-]+\.md|README|CONTRIBUTING|CHANGELOG)\b(?P<heading>,{GAP}\"(?P<title>[^\"]+)\")?")
+# The site names README.md index.md.
 NOT_OURS = re.compile(r"\bDESIGN\b|(?<![\w/.-])(?!index\.md)[a-z][\w-]*\.md\b(?!\.gz)")
-PATH = re.compile(r"`((?:base|slam|drivers|picture|settings|daemon|sim|tools|tests|bench|lcmtypes|config|systemd|cmake|scripts|packaging|docs|runs|examples|man)"
+PATH = re.compile(r"`((?:base|slam|drivers|settings|daemon|sim|tools|tests|config|cmake|scripts|packaging|docs|runs)"
                   r"/[\w./{},*-]*)[^`]*`")
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 
 
 def without_code(text):
-    """A Markdown text with its code blanked."""
+    """The Markdown text with its code replaced by blanks."""
     blank = lambda found: re.sub(r"[^\n]", " ", found[0])
     return re.sub(r"`[^`\n]*`", blank, re.sub(r"^```.*?^```", blank, text, flags=re.S | re.M))
 
 
 def alternatives(path):
-    """a.{hpp,cpp} as a.hpp and a.cpp."""
+    """Expands a.{hpp,cpp} to a.hpp and a.cpp."""
     braces = re.search(r"\{([^}]*)\}", path)
     return [path[:braces.start()] + each + path[braces.end():] for each in braces[1].split(",")] if braces else [path]
 
@@ -60,12 +60,8 @@ class Documents:
         self.parts = set(re.findall(r"^Part ([IVX]+)\b", mathematics, flags=re.M))
 
     def section_problems(self, found):
-        if found["any"]:
-            return
         numbers = re.findall(NUMBER, (found["first"] or "") + (found["more"] or ""))
         parts = [found["roman"]] if found["roman"] else re.findall(r"part\s+([IVX]+)", found["more"] or "")
-        if not numbers and not parts:
-            yield "SPEC without a section"
         for number in numbers:
             if number not in self.sections:
                 yield f"docs/mathematics.md has no section {number}"
@@ -91,9 +87,9 @@ class Documents:
         return None
 
     def problems(self, path, text):
-        """(offset, message)"""
+        """Yields (offset, message) of each violation."""
         is_markdown = path.endswith(".md")
-        for found in SPEC.finditer(text):
+        for found in CITATION.finditer(text):
             for message in self.section_problems(found):
                 yield found.start(), message
         for found in DOCUMENT.finditer(text):
@@ -103,7 +99,7 @@ class Documents:
             for found in NOT_OURS.finditer(text):
                 yield found.start(), f"{found[0]} is no document of this tree"
             return
-        for found in PATH.finditer(text) if path != "CHANGELOG.md" else ():  # which tells of what was
+        for found in PATH.finditer(text) if path != "CHANGELOG.md" else ():  # the changelog cites files of earlier versions
             for each in alternatives(found[1]):
                 if "NAME" not in found[0] and not any(self.tree.glob(each.rstrip("/"))):
                     yield found.start(), f"{each} is not there"
@@ -127,7 +123,7 @@ def violations(tree):
     for path in files(tree):
         try:
             text = (tree / path).read_text(encoding="utf-8")
-        except UnicodeDecodeError:  # no text
+        except UnicodeDecodeError:  # a binary file
             continue
         for offset, message in known.problems(path, text):
             yield f"{path}:{text.count(chr(10), 0, offset) + 1}: {message}"

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes the site of the documents and follows every link in it.
+"""Builds the site of the documents and follows every link in it.
 
 usage: pages_test.py SOURCE_TREE      exit code 0: good, 1: not, 77: mkdocs-material is missing
 """
@@ -31,7 +31,7 @@ class Page(HTMLParser):
 
 
 def elsewhere(text):
-    """Scripts, styles and pictures that are not the site's own."""
+    """The scripts, styles and pictures that a page loads from other sites."""
     return re.search(r"<(?:script|img)[^>]* src=.?https?:|<link[^>]* rel=.?(?:stylesheet|preconnect)[^>]*https?:", text)
 
 

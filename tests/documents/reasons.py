@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Compares documents with the code that they explain: docs/troubleshooting.md has every reason that stands behind a health and
-no other, docs/tuning.md every line and every key of a report.
+"""Compares documents with the code that they explain: docs/troubleshooting.md must have every reason of a health and no
+other, and docs/tuning.md every line and every key of a report.
 
 usage: reasons.py SOURCE_TREE      exit code 0: they agree, 1: not, one `file: message` each
 """
@@ -14,17 +14,17 @@ import tree_check  # noqa: E402
 
 REASONS, REPORT = "docs/troubleshooting.md", "docs/tuning.md"
 LITERAL = re.compile(r'"([^"]*)"')
-# Functions whose texts are reasons, up to their end in the first column.
+# Functions whose texts are reasons, up to the closing brace in the first column.
 FUNCTION = re.compile(r"^(?:constexpr )?(?:std::string_view (?:\w+::)?(?:why_\w+|to_string\((?=ImageTrouble|SampleTrouble))"
                       r"|Trust trust\()[^;{]*\{(.*?)^\}", flags=re.M | re.S)
-# What else gives one: a health with its reason, and assignments.
+# Other places that set a reason: a health with its reason, and assignments.
 GIVEN = re.compile(r"Health::\w+,\s*([^;]*?)\};|(?:\.reason|\.doubt)\s*=(?!=)\s*([^;]*);", flags=re.S)
-# Texts that come from the functions above, or from another judgement.
+# Expressions that take a reason from the functions above or from another judgement.
 FOLLOWED = re.compile(r'"[^"]*"|\b(?:why_\w+|to_string)\([^()]*\)|\b(?:judgement|evidence|trust)\.\w+|\bmapper_->doubt\(\)|\breason\b|\bblind\b|\b\w+\.is_away\(\)')
 
 
 def of_code(text):
-    """(reasons, texts that cannot be followed) of one file."""
+    """Returns (reasons, expressions whose text cannot be traced) of one file."""
     reasons = {literal for body in FUNCTION.findall(text) for literal in LITERAL.findall(body)}
     strange = []
     for found in GIVEN.finditer(text):
@@ -36,7 +36,7 @@ def of_code(text):
 
 
 def section(text, title):
-    """The sections whose headings begin so."""
+    """The sections whose headings begin with `title`."""
     return "\n".join(re.findall(rf"^## {title}.*?(?=^## |\Z)", text, flags=re.M | re.S))
 
 

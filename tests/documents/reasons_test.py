@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Proves that the comparison of documents and code bites: each reason, line or key that one of them lacks is named."""
+"""Tests the comparison of documents and code: it names each reason, line or key that one of them lacks."""
 
 import sys
 import unittest

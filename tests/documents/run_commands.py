@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Runs the shell commands of a document as they stand there, in a scratch folder that holds the shipped run, cut short, and the
-configurations. Each fence is one session; what is not run stands in NOT_RUN with its reason.
+"""Runs the shell commands of a document unchanged, in a scratch folder with the beginning of the shipped run and the
+configurations. Each fence is one session; NOT_RUN lists the commands that are not run, with reasons.
 
 usage: run_commands.py SOURCE_TREE DOCUMENT AZIMUTH AZIMUTHD AZIMUTH_SIM      exit code 0: all ran, 1: not, 77: nothing can be run here
        run_commands.py SOURCE_TREE                                            checks NOT_RUN: each entry is of some document
@@ -19,10 +19,10 @@ HERE = Path(__file__).resolve()
 sys.path.insert(0, str(HERE.parents[2] / "scripts/lib"))
 from html_pages import documents  # noqa: E402
 
-KEPT_S = 10.0       # of the shipped run: enough for a map
+KEPT_S = 10.0       # length of the shipped run that is kept, which is enough for a map
 PATIENCE_S = 50.0
 
-NOT_RUN = [  # what a command begins with or holds, and why it is not run
+NOT_RUN = [  # pattern of a command, and the reason why it is not run
     (r"^scripts/|^\.ci/|^cmake |^export PATH=|^AZIMUTH_RESTARTS", "installs or builds"),
     (r"^sudo|^journalctl|^systemctl|^ip link", "of the machine's administrator"),
     (r"^azimuth doctor", "answers differently on each machine"),
@@ -37,7 +37,7 @@ NOT_RUN = [  # what a command begins with or holds, and why it is not run
     (r"drive\.bag|--images left|drive\.lcm ", "recordings of others (tests/tools does it)"),
 ]
 
-# What a document's commands find beside runs/ and config/, made of the shipped run.
+# Shell commands that make further files which a document's commands expect beside runs/ and config/.
 FOUND = {
     "docs/import.md": r"""cp runs/lab/rig.toml .
 awk -F, 'NR == 1 { print "timestamp px py yaw"; next } { print $1, $2, $3, $4 * 57.29577951 }' runs/lab/odometry.csv > odometry.txt
@@ -53,7 +53,7 @@ def fences(text):
 
 
 def commands(fence):
-    """(command, comment) of each, continued lines joined."""
+    """Yields (command, comment) of each command of a fence, with continued lines joined."""
     for line in fence.replace("\\\n", " ").splitlines():
         found = re.fullmatch(r"(.*?)(?:\s+#\s*(.*))?", line)
         if found[1].strip() and not found[1].startswith("#"):
@@ -79,8 +79,9 @@ def prepare(tree, document, folder, run):
 
 
 class Session:
-    """A fence in a shell's folder. Commands for another terminal go on beside the others until these are done. Who plays waits
-    for those who listen, in whatever order a reader types them: here nothing is played twice."""
+    """Runs the commands of one fence in a folder. Commands for another terminal run in parallel until the others are
+    done. A player starts after all listeners, independently of their order in the document, because nothing is played
+    twice here."""
 
     def __init__(self, folder, environment):
         self.folder, self.environment, self.beside, self.players = folder, environment, [], []
@@ -102,7 +103,7 @@ class Session:
         return process
 
     def finish_beside(self):
-        """Players end by themselves, listeners by Ctrl-C."""
+        """Runs the players until they end, and then ends the listeners with Ctrl-C."""
         for process in [self.begin(command) for command in self.players]:
             process.wait(PATIENCE_S)
         self.players = []
@@ -113,7 +114,7 @@ class Session:
 
 
 def wait_until_heard(command):
-    """lcm-logger has subscribed when a socket is bound to LCM's port (0x1DF3 = 7667)."""
+    """Waits until lcm-logger has subscribed, which binds a socket to LCM's port (0x1DF3 = 7667)."""
     for _ in range(100):
         if not command.startswith("lcm-logger") or re.search(r"^\s*\d+: \w+:1DF3 ", Path("/proc/net/udp").read_text(), flags=re.M):
             return
@@ -128,7 +129,7 @@ def run_fence(document, fence, session, ran):
         if re.search(r"\bin (one|another)\b", comment):
             session.start(command)
             continue
-        if command.startswith("azimuth "):  # reads what the others have written
+        if command.startswith("azimuth "):  # reads the files of the other programs
             session.finish_beside()
         done = session.run(command)
         if done.returncode:

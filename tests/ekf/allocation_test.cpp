@@ -1,4 +1,4 @@
-// The filter's steady state does not allocate: a step's time must not depend on the allocator's mood.
+// The filter does not allocate in its steady state, so that the time of a step does not depend on the allocator.
 
 #include <gtest/gtest.h>
 #include <memory>
@@ -14,21 +14,21 @@ namespace {
 TEST(AllocationCounter, SeesOperatorNewAndMalloc) {
   const std::size_t before = allocations();
   auto number = std::make_unique<int>(1);
-  asm volatile("" : : "r"(number.get()) : "memory");  // or the pair would be optimised away
+  asm volatile("" : : "r"(number.get()) : "memory");  // keeps the compiler from removing the allocation
   EXPECT_EQ(allocations(), before + 1);
   const Eigen::MatrixXd matrix(10, 10);
   asm volatile("" : : "r"(matrix.data()) : "memory");
   EXPECT_EQ(allocations(), before + 2);
 }
 
-/// A filter with rays all round and a clone, in the middle of a run.
+/// A filter with 24 rays all round, in the middle of a run.
 class SteadyFilter {
  public:
   SteadyFilter(JointState::Retraction retraction, int iterations) : ekf_(settings_for(retraction, iterations)) {
     for (int i = 0; i < 24; ++i) rays_.push_back(ekf_.add_ray(azimuth_rad(i), 0.02, 0.25, 0.2));
   }
 
-  /// One step that sees `count` landmarks.
+  /// One step with sightings of `count` landmarks.
   bool step(int count) {
     sightings_.clear();
     for (int i = 0; i < count; ++i) {
@@ -43,7 +43,7 @@ class SteadyFilter {
     return ekf_.update(sightings_);
   }
 
-  /// What delayed initialisation does in every image.
+  /// The cloning and removal that delayed initialisation does in every image.
   void clone_and_forget() { ekf_.remove(ekf_.clone_robot(), BlockKind::pose); }
 
   void reserve(int count) { sightings_.reserve(static_cast<std::size_t>(count)); }
@@ -80,12 +80,12 @@ TEST_P(Allocation, NoneAfterTheLargestBatch) {
   SteadyFilter filter(GetParam().retraction, GetParam().iterations);
   filter.reserve(24);
   for (int warm_up = 0; warm_up < 3; ++warm_up) {
-    filter.clone_and_forget();  // the state at its largest, before the last warm-up step
+    filter.clone_and_forget();  // grows the state to its maximum before the last warm-up step
     ASSERT_TRUE(filter.step(24));
   }
   const std::size_t before = allocations();
   for (int step = 0; step < 50; ++step) {
-    filter.step(1 + (step * 7) % 24);  // batches of every size
+    filter.step(1 + (step * 7) % 24);  // batches of all sizes
     filter.clone_and_forget();
   }
   EXPECT_EQ(allocations() - before, 0u);

@@ -1,5 +1,5 @@
-// Prediction and initialisation of landmarks by the filter, with the camera's yaw as a state: covariances against
-// numeric derivatives of the whole transformation.
+// Prediction and landmark initialisation by the EKF with the camera's yaw as a state. Covariances are compared with
+// those from numeric derivatives of the whole transformation.
 
 #include "slam/ekf/bearing_ekf.hpp"
 
@@ -20,7 +20,7 @@ BearingEkfSettings with_yaw_state() {
   settings.sigma_yaw_rad = 0.05;
   return settings;
 }
-constexpr Index kYaw = 3;  // the scalar follows the robot's pose
+constexpr Index kYaw = 3;  // the yaw's entry follows the robot's pose
 
 Eigen::MatrixXd covariance_of(const BearingEkf& ekf, const std::vector<Index>& entries) {
   Eigen::MatrixXd P(static_cast<Index>(entries.size()), static_cast<Index>(entries.size()));
@@ -125,7 +125,8 @@ TEST(BearingEkf, LinearityIndexFallsAsTheDistanceBecomesKnown) {
   BearingEkf ekf{BearingEkfSettings{}};
   const Index vague = ekf.add_ray(0.0, 0.01, 0.25, 0.25), known = ekf.add_ray(1.0, 0.01, 0.25, 0.0025);
   const Index beyond_infinity = ekf.add_ray(2.0, 0.01, -0.1, 0.25);
-  EXPECT_NEAR(ekf.linearity_index(vague), 4.0 * (0.25 * 16.0) / 4.0, 1e-12);  // 4 sigma_d / d, head on
+  // 4 sigma_d / d for a landmark straight ahead
+  EXPECT_NEAR(ekf.linearity_index(vague), 4.0 * (0.25 * 16.0) / 4.0, 1e-12);
   EXPECT_NEAR(ekf.linearity_index(known), ekf.linearity_index(vague) / 100.0, 1e-12);
   EXPECT_EQ(ekf.linearity_index(beyond_infinity), std::numeric_limits<double>::infinity());
 }
@@ -157,11 +158,11 @@ TEST(BearingEkf, PredictionCovarianceIsHPH) {
 TEST(BearingEkf, LearnsTheCamerasYawFromAKnownWorld) {
   BearingEkf ekf{with_yaw_state()};
   constexpr double kTrueYaw_rad = 0.25;
-  const Index ray = ekf.add_ray(0.0 - 0.2, 1e-4, 0.25, 1e-4);  // prior yaw 0.2: a landmark said to be straight ahead
+  const Index ray = ekf.add_ray(0.0 - 0.2, 1e-4, 0.25, 1e-4);  // the prior yaw is 0.2, so the ray points straight ahead
   const Index clone = ekf.clone_robot();
   ASSERT_EQ(clone > 0 && ray > 0, true);
   ekf.predict({{2.0, 0.0, 0.0}, Eigen::Vector3d(1e-8, 1e-8, 1e-8).asDiagonal(), 2.0, 0.0});
-  // With a wrong yaw the landmark's direction is wrong by as much, and driving towards it shows.
+  // A wrong yaw turns the landmark's estimated direction by the same angle. Driving towards the landmark reveals it.
   const Eigen::Vector2d landmark = 4.0 * Eigen::Vector2d(std::cos(kTrueYaw_rad - 0.2), std::sin(kTrueYaw_rad - 0.2));
   const auto seen = predict_bearing(ekf.state().pose(), landmark, 0.0);
   const std::array sightings{

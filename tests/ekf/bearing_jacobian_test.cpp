@@ -1,4 +1,4 @@
-// Every Jacobian of the measurement and of the initialisation against numeric differentiation.
+// Compares every Jacobian of the measurement and of the initialisation with numeric differentiation.
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -68,7 +68,7 @@ void expect_ray_jacobians_match(const Pose2& pose, const InverseDepth& ray) {
   EXPECT_LT(largest_difference(predicted->by_landmark, numeric.rightCols<4>()), kJacobianTolerance);
 }
 
-/// Far enough from the robot for numeric differentiation.
+/// Whether the landmark is far enough from the robot for numeric differentiation.
 bool is_benign(const Pose2& pose, const InverseDepth& ray) {
   return (ray.inverse_distance_per_m * (ray.anchor - pose.position()) + ray.direction()).norm() > 0.3;
 }
@@ -197,7 +197,7 @@ TEST(Linearise, ConstantYawTurnsTheMeasurement) {
 }
 
 TEST(Linearise, TheCentresOffsetTurnsABearingAsAnImageWithAnotherCentreWould) {
-  // What stands at r (cos z, sin z) from the assumed centre is seen from the true one, 10 px towards azimuth 0.
+  // The radius and azimuth refer to the assumed centre. The true centre is 10 px away towards azimuth 0.
   const Eigen::VectorXd x = (Eigen::VectorXd(7) << 0.0, 0.0, 0.0, 3.0, 0.0, 10.0, 0.0).finished();
   MappedSighting sighting{JointState::kPose, 3, BlockKind::point, kPi / 2, 1.0};
   sighting.radius_px = 100.0;
@@ -223,7 +223,7 @@ TEST(IntersectJacobians, MatchAtRandomGeometries) {
   int checked = 0;
   while (checked < kJacobianDraws) {
     Eigen::VectorXd x(8);
-    const double extent_m = checked % 4 == 0 ? 1e-6 : 4.0;  // also both poses nearly at the origin
+    const double extent_m = checked % 4 == 0 ? 1e-6 : 4.0;  // every fourth trial puts both poses near the origin
     x << draws.pose(extent_m).vector(), draws.pose(extent_m).vector(), draws.uniform(-kPi, kPi),
         draws.uniform(-kPi, kPi);
     const auto meeting = intersect({pose_at(x, 0), x(6)}, {pose_at(x, 3), x(7)});
@@ -236,7 +236,7 @@ TEST(IntersectJacobians, MatchAtRandomGeometries) {
 }
 
 TEST(IntersectJacobians, AreTheInverseOfTheMeasurementJacobians) {
-  // SPEC I.8: G = -Hf^-1 Hv stacked, W = Hf^-1, and the position parts of G sum to the identity.
+  // mathematics I.8: G = -Hf^-1 Hv stacked, W = Hf^-1, and the position parts of G sum to the identity.
   RandomDraws draws(47);
   int checked = 0;
   while (checked < kJacobianDraws) {

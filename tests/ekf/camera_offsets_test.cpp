@@ -1,4 +1,4 @@
-// Azimuths of a camera that leans and whose centre is elsewhere, both unknown to its rig.
+// Azimuths of a camera whose image centre and tilt differ from its rig.
 
 #include "slam/ekf/camera_offsets.hpp"
 
@@ -20,7 +20,7 @@ const ImageAxes kAxes{{320.0, 240.0}, 1.0, -1, 0.3};
 class CameraOffsetsOf : public testing::TestWithParam<test::NamedCamera> {
  protected:
   const RadialProfile& profile() const { return GetParam().model.profile(); }
-  /// Between the centre and the rim.
+  /// A direction whose pixel lies between the centre and the rim.
   Direction seen(RandomDraws& draws) const {
     return {draws.uniform(-kPi, kPi),
             draws.uniform(std::max(GetParam().lowest_rad, -0.9) + 0.1, std::min(GetParam().highest_rad, 1.2) - 0.1)};
@@ -51,7 +51,7 @@ TEST_P(CameraOffsetsOf, AreWhatACameraThatLeansShows) {
 
 TEST_P(CameraOffsetsOf, HaveTheirDerivatives) {
   RandomDraws draws(8);
-  using Sizes = std::pair<double, double>;  // [px], [rad]
+  using Sizes = std::pair<double, double>;  // offset [px], tilt [rad]
   for (const auto& [offset_px, tilt_rad] : {Sizes{0.0, 0.0}, Sizes{1e-3, 1e-6}, Sizes{8.0, 0.03}}) {
     for (int i = 0; i < 100; ++i) {
       const Eigen::Vector4d errors = errors_of(offset_px, tilt_rad, draws);

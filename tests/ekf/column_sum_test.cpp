@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "slam/ekf/column_sum_avx2.hpp"
-#include "slam/ekf/column_sum_loops.hpp"  // the baseline path, which does not run on a processor with AVX2
+#include "slam/ekf/column_sum_loops.hpp"  // the baseline path, which processors with AVX2 do not use
 #include "slam/geometry/index.hpp"
 #include "tests/geometry/random_draws.hpp"
 
@@ -17,7 +17,7 @@ std::vector<double> draw(Index count, RandomDraws& draws) {
   return values;
 }
 
-/// Parts of one to five columns, a stride apart, from any row on, and a sum that is not zero to begin with.
+/// Parts of one to five columns with a stride, from any first row on, and a sum with initial values.
 struct ColumnProblem {
   Index size;
   std::vector<double> out, matrix, factors;
@@ -34,7 +34,7 @@ struct ColumnProblem {
     }
   }
 
-  /// What stands after the sum's rows belongs to it, too: it must not change.
+  /// The result includes the elements behind the sum's rows, which must not change.
   template <class Add>
   std::vector<double> result_of(Add add) const {
     std::vector<double> result = out;
@@ -52,7 +52,7 @@ void add_columns_by_definition(const ScaledColumns* parts, Index count, Index si
     }
 }
 
-/// To the last bit: no path fuses.
+/// All paths agree to the last bit, because none of them fuses multiply-adds.
 TEST(ColumnSum, EveryPathEqualsItsDefinition) {
   RandomDraws draws(61);
   for (Index size = 0; size <= 70; ++size)

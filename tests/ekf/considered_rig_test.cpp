@@ -1,5 +1,5 @@
-// What a filter considers of its rig. Of the odometer's scales: what a wrong one does to path and map, and that no
-// bearing mends it.
+// Considered rig constants in the filters. Covers the effect of the odometer's scale errors on path and map, and that
+// no bearing corrects a scale error.
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 constexpr double kSigmaScale = 0.01;
 constexpr double kDrivenStep_m = 0.1;
 
-/// Motion without noise: whatever is unknown of the pose comes from the scales.
+/// A motion without noise, so that all uncertainty of the pose comes from the scales.
 Motion exactly(const Control& control) {
   Motion motion;
   append(motion, control, control, {});
@@ -35,7 +35,7 @@ void drive(Filter& filter, double distance_m) {
     filter.predict(exactly({.distance_m = kDrivenStep_m}));
 }
 
-/// Of the pose, the scales' part included.
+/// The covariance of the pose, including the part of the considered constants.
 Eigen::Matrix3d total(const JointState& state) {
   return state.pose_covariance() + covariance_by_considered<3>(state, JointState::kPose);
 }
@@ -68,7 +68,7 @@ TEST(OdometerScales, OfTurnsGrowWithTheTurnAndAreUndoneBackwards) {
   EXPECT_NEAR(total(ekf.state())(2, 2), 0.0, 1e-12);
 }
 
-/// 20 m of precise bearings all round: they tell the way apart from everything but its scale.
+/// 20 m with precise bearings all round: they determine the path up to its scale.
 TEST(OdometerScales, NoBearingTellsThatOfDistance) {
   BearingEkf ekf(with_scales({kSigmaScale, kSigmaScale}));
   RandomDraws draws(1);
@@ -94,17 +94,17 @@ TEST(OdometerScales, NoBearingTellsThatOfDistance) {
   const double within_m2 = ekf.state().covariance(0, 0), by_scale_m = kSigmaScale * 20.0;
   EXPECT_LE(within_m2, 200 * 1e-5);
   EXPECT_NEAR(sigma_x_m(ekf.state()), std::sqrt(within_m2 + by_scale_m * by_scale_m), 0.1 * by_scale_m);
-  // The map is off by the same share as the path.
+  // The map has the same relative error as the path.
   for (std::size_t i = 0; i < rays.size(); ++i) {
     Eigen::Matrix<double, 2, 4> J;
     const Eigen::Vector2d p = point_of(ekf.ray(rays[i]), &J);
     const Eigen::Matrix2d expected = kSigmaScale * kSigmaScale * p * p.transpose();
-    if (p.norm() > 10.0) continue;  // hardly seen from the side
+    if (p.norm() > 10.0) continue;  // hardly any parallax
     EXPECT_LT((covariance_by_considered(ekf.state(), rays[i], J) - expected).norm(), 0.3 * expected.norm()) << i;
   }
 }
 
-/// Considering changes no estimate: it is a statement about errors.
+/// Considered constants change the covariance of the errors, but not the estimate.
 TEST(OdometerScales, LeaveTheEstimateAlone) {
   BearingEkf with(with_scales({kSigmaScale, kSigmaScale})), without(with_scales({0.0, 0.0}));
   for (BearingEkf* ekf : {&with, &without}) {
@@ -119,7 +119,7 @@ TEST(OdometerScales, LeaveTheEstimateAlone) {
   }
 }
 
-/// A map that is loaded was made by the same odometer.
+/// A loaded map was made with the same odometer, so it shares the scale errors.
 TEST(OdometerScales, AreThoseOfTheMapThatIsLoaded) {
   MapSnapshot map;
   map.T_map_body = {3.0, 4.0, 1.0};
@@ -156,10 +156,10 @@ TEST(ConsideredRig, DerivativesOfAMotionOfManySegments) {
   }
 }
 
-/// A pose by a vector (x, y, heading).
+/// The pose of a vector (x, y, heading).
 Pose2 pose_by(const Eigen::VectorXd& v) { return {v(0), v(1), v(2)}; }
 
-/// The camera goes T_map_camera * e^-1 * motion * e.
+/// The mounting error e moves the camera's pose to T_map_camera * e^-1 * motion * e.
 TEST(ConsideredRig, DerivativesOfAMotionByTheMounting) {
   RandomDraws draws(3);
   for (int i = 0; i < 100; ++i) {
@@ -191,7 +191,7 @@ TEST(ConsideredRig, WhatIsAllowedForMovesARobotByItsDerivatives) {
   }
 }
 
-/// That is where the robot began, before it has seen anything, and wherever it has driven then.
+/// While nothing is seen, an error of the camera's mounting must not move the body, wherever the robot drives.
 TEST(ConsideredRig, IsNoneOfTheBodysWhileNothingIsSeen) {
   BearingEkf ekf(with_scales({0.0, 0.0}));
   RandomDraws draws(4);

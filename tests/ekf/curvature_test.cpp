@@ -1,4 +1,4 @@
-// What a linear update leaves out of a bearing, against what it does leave out of many drawn ones.
+// The nonlinear part of a bearing that a linear update neglects, compared with its variance over many draws.
 
 #include "slam/ekf/curvature.hpp"
 
@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kManyDraws = 20000;
 
-/// Variance of f(x) - f(mean) - J (x - mean) for x drawn about the mean.
+/// The variance of f(x) - f(mean) - J (x - mean) over draws of x around the mean.
 double left_out(const std::function<double(const Eigen::VectorXd&)>& f, const Eigen::VectorXd& mean,
                 const Eigen::MatrixXd& covariance, RandomDraws& draws) {
   const auto as_vector = [&](const Eigen::VectorXd& x) { return Eigen::VectorXd::Constant(1, f(x)); };
@@ -36,7 +36,7 @@ double left_out(const std::function<double(const Eigen::VectorXd&)>& f, const Ei
   return sum2 / kManyDraws - std::pow(sum / kManyDraws, 2);
 }
 
-/// A filter that has seen one thing from a place that it is not sure of.
+/// A filter that has seen one landmark from an uncertain pose.
 struct SeenOnce {
   BearingEkf ekf;
   Index ray;
@@ -121,7 +121,7 @@ TEST(Curvature, IsChargedOnlyWhereTheSettingsSay) {
   EXPECT_EQ(seen.ekf.curvature_rad2({.landmark = seen.ray, .kind = BlockKind::inverse_depth, .radius_px = 150.0}), 0.0);
 }
 
-/// The point of it: a filter that is sure of its pose loses nothing.
+/// The curvature variance vanishes for small uncertainties, so a filter with a certain pose loses no information.
 TEST(Curvature, FallsWithTheFourthPowerOfWhatIsUnknown) {
   BearingEkfSettings settings;
   settings.charge_curvature = true;
@@ -138,12 +138,12 @@ TEST(Curvature, FallsWithTheFourthPowerOfWhatIsUnknown) {
   }
 }
 
-/// The same for directions to lamps: in units of both axes, for a point as well as for an inverse height.
+/// The curvature of a lens, for directions to lamps, in both axes of the tangent plane.
 TEST(Curvature, OfTheLensIsWhatTheJacobianLeavesOut) {
   RandomDraws draws(5);
   constexpr double kFocal_px = 250.0, kSigma_px = 8.0;
   for (const double zenith_rad : {0.1, 0.6, 1.0, 1.3}) {
-    // An equidistant lens: the pixel at the radius f t.
+    // An equidistant lens images the zenith angle t at the radius f t.
     const auto ray_of = [&](const Eigen::Vector2d& p_px) {
       const double r = p_px.norm(), t = r / kFocal_px;
       return Eigen::Vector3d(std::sin(t) * p_px.x() / r, std::sin(t) * p_px.y() / r, std::cos(t));
@@ -166,7 +166,7 @@ TEST(Curvature, OfTheLensIsWhatTheJacobianLeavesOut) {
         return along.dot(moved) / towards.dot(moved);
       };
       const double expected = left_out(place, Eigen::Vector2d::Zero(), P, draws);
-      // What the projection into the plane itself leaves out is small beside an axis that bends at all.
+      // The tolerance covers the nonlinearity of the projection into the tangent plane itself, which is small.
       EXPECT_LT(std::abs(std::sqrt(charged(axis)) - std::sqrt(expected)), 0.3 * std::sqrt(expected) + 2e-4)
           << zenith_rad << " axis " << axis;
     }

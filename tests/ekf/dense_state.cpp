@@ -7,20 +7,20 @@ namespace {
 
 Eigen::Vector2d turned_by_right_angle(const Eigen::Vector2d& v) { return {-v.y(), v.x()}; }
 
-/// First entries of the pairs that turn with the map.
+/// The first entries of a block's pairs of entries that turn with the map.
 std::vector<Index> pairs_of(BlockKind kind) {
   if (kind == BlockKind::scalar || kind == BlockKind::plain_pair) return {};
   if (kind == BlockKind::inverse_height) return {0, 2};
   return {0};
 }
 
-/// Entry of a block that is an angle, or -1.
+/// The entry of a block that is an angle, or -1.
 Index angle_of(BlockKind kind) {
   if (kind == BlockKind::pose || kind == BlockKind::inverse_depth) return 2;
   return kind == BlockKind::scalar ? 0 : -1;
 }
 
-/// V of the exponential map of rigid motions: the integral of R(s turn) over s in [0, 1], here by its power series.
+/// V of the exponential map of rigid motions: the integral of R(s turn) over s in [0, 1], computed by its power series.
 Eigen::Matrix2d exponential_factor(double turn_rad) {
   Eigen::Matrix2d generator, sum = Eigen::Matrix2d::Zero(), term = Eigen::Matrix2d::Identity();
   generator << 0.0, -turn_rad, turn_rad, 0.0;
@@ -124,9 +124,9 @@ void DenseState::update_only(std::size_t block, const Eigen::MatrixXd& H, const 
   correct(K * innovation, JointState::Retraction::additive);
 }
 
-/// The invariant error of a position q is xi = dq - turn q_perp. Its exponential moves q to R(turn) q + V xi, and
-/// because V turn q_perp = R(turn) q - q that is q + V dq: each position moves by its own correction, wherever the
-/// origin is. The covariance, kept in coordinates dq, is carried from the old mean to the new one.
+/// The invariant error of a position q is xi = dq - turn q_perp. Its exponential moves q to R(turn) q + V xi. Because V
+/// turn q_perp = R(turn) q - q, the result equals q + V dq: each position moves by its own correction, independent of
+/// the origin. The covariance is kept in the coordinates dq and is transported from the old mean to the new one.
 void DenseState::correct(const Eigen::VectorXd& correction, JointState::Retraction retraction) {
   const Eigen::VectorXd before = x;
   const double turn_rad = correction(2);

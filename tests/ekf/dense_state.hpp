@@ -1,6 +1,6 @@
 #pragma once
-// The joint state as a textbook writes it: one dense covariance, rebuilt by whole-matrix products at each operation.
-// The reference that JointState must agree with.
+// The joint state in textbook form: one dense covariance, rebuilt by whole-matrix products in each operation.
+// JointState must agree with this reference.
 
 #include <Eigen/Core>
 #include <vector>
@@ -13,13 +13,13 @@ class DenseState {
  public:
   struct Block {
     BlockKind kind;
-    Index first;  ///< entry in x
+    Index first;  ///< First entry in x
   };
   Eigen::VectorXd x;
   Eigen::MatrixXd P;
   Eigen::MatrixXd D;          ///< d(x) / d(errors of the considered constants)
-  JointState::Told told;      ///< of them
-  std::vector<Block> blocks;  ///< the robot's pose first
+  JointState::Told told;      ///< What the measurements tell about the considered constants
+  std::vector<Block> blocks;  ///< Starts with the robot's pose
 
   DenseState(const Pose2& pose, const Eigen::Matrix3d& covariance);
 
@@ -30,15 +30,15 @@ class DenseState {
   void add(BlockKind kind, const Eigen::VectorXd& mean, const Eigen::MatrixXd& J, const Eigen::MatrixXd& noise);
   void remove(std::size_t block);
   void promote(std::size_t block, BlockKind into, const Eigen::VectorXd& mean, const Eigen::MatrixXd& jacobian);
-  /// Joseph form.
+  /// The update in Joseph form.
   void update(const Eigen::MatrixXd& H, const Eigen::VectorXd& innovation, const Eigen::VectorXd& variances,
               JointState::Retraction retraction);
-  /// Likewise with a gain for one block only.
+  /// An update in Joseph form with a gain for one block only.
   void update_only(std::size_t block, const Eigen::MatrixXd& H, const Eigen::VectorXd& innovation,
                    const Eigen::VectorXd& variances);
 
  private:
-  /// x <- A x is not meant: only P <- A P A^T + B and D <- A D, with x set by the caller.
+  /// P <- A P A^T + B and D <- A D. The caller sets x.
   void transform(const Eigen::MatrixXd& A, const Eigen::MatrixXd& added_noise);
   void correct(const Eigen::VectorXd& correction, JointState::Retraction retraction);
 };

@@ -1,5 +1,5 @@
-// A filter that holds its map, against the gain of Schmidt's filter in Joseph form, and a map taken over from a
-// snapshot.
+// A filter that holds its map fixed is compared with the gain of Schmidt's filter in Joseph form. A map restored from a
+// snapshot is compared with the saved one.
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>
@@ -12,9 +12,9 @@ namespace azimuth {
 namespace {
 
 constexpr double kSigmaSighting_rad = 0.02;
-constexpr Index kFree = 6;  // pose, yaw, centre
+constexpr Index kFree = 6;  // entries of the pose, the yaw and the image centre
 
-/// Points around a robot near the origin, all correlated with it, with each other and with the camera's offsets.
+/// Points around a robot near the origin, all correlated with the robot, with each other and with the camera's offsets.
 MapSnapshot correlated_map(RandomDraws& draws, std::size_t landmarks) {
   MapSnapshot map;
   map.T_map_body = draws.pose(0.5);
@@ -67,7 +67,7 @@ std::vector<MappedSighting> sightings_of(const BearingEkf& ekf, const std::vecto
   return sightings;
 }
 
-/// Schmidt's gain: the optimal one, with the rows of what is held set to zero. Joseph's form holds for any gain.
+/// Schmidt's gain: the optimal gain with the rows of the held entries set to zero. Joseph's form holds for any gain.
 struct ConsideredMap {
   Eigen::VectorXd mean;
   Eigen::MatrixXd P;
@@ -136,9 +136,9 @@ TEST(HeldMap, IsNotMovedByTheIteratedUpdateEither) {
     sightings.push_back({.landmark = blocks[i],
                          .azimuth_rad = predict_bearing(truth, map.landmarks[i].p_map_landmark_m, 0.0)->azimuth_rad,
                          .variance_rad2 = 1e-8});
-  // WHEN they correct it
+  // WHEN the bearings correct the pose
   ASSERT_TRUE(ekf.update(sightings));
-  // THEN the pose is the true one, which one linearisation would miss by far, and the map is where it was
+  // THEN the pose is the true one, which a single linearisation would miss by far, and the map has not moved
   EXPECT_LT((ekf.state().pose().vector() - truth.vector()).norm(), 1e-4);
   EXPECT_EQ(mean_of(ekf.state()).tail(before.size() - 3), before.tail(before.size() - 3));
 }

@@ -1,4 +1,5 @@
-// JointState, with its gaps, reuse and growth, against the dense textbook filter over random sequences of operations.
+// Compares JointState, with its gaps, their reuse and its growth, with the dense textbook filter over random sequences
+// of operations.
 
 #include <gtest/gtest.h>
 #include <string>
@@ -33,7 +34,7 @@ class Growth : public testing::TestWithParam<Retraction> {};
 
 TEST_P(Growth, KeepsEverythingAcrossEachDoubling) {
   Twins twins(100, GetParam());
-  for (int i = 0; twins.state.extent() < 280 && !HasFailure(); ++i) {  // past 64, 128 and 256
+  for (int i = 0; twins.state.extent() < 280 && !HasFailure(); ++i) {  // grows past 64, 128 and 256 entries
     const Index before = twins.state.extent();
     twins.add(i % 3 == 0 ? BlockKind::inverse_depth : BlockKind::point);
     if (i % 4 == 0) twins.clone();
@@ -81,7 +82,7 @@ TEST(JointStateGaps, HalfOfAPromotedRayServesAPoint) {
   twins.expect_equal();
 }
 
-/// On the robot and one point: parts that meet themselves, and on either side of the diagonal.
+/// Two rows on the robot and one point, so that the parts of two pairs coincide or lie on either side of the diagonal.
 RowPair pair_on(Index block, double by) {
   RowPair rows;
   for (std::size_t axis = 0; axis < rows.size(); ++axis) {

@@ -1,5 +1,5 @@
-// The filter over lamps in space: that it finds them, that a turn of the whole map changes nothing, and that no
-// knowledge of the direction of the map comes from nowhere.
+// The EKF over lamps in space: it estimates their positions, a turn of the whole map changes nothing, and it gains no
+// information on the direction of the map.
 
 #include "slam/ekf/lamp_ekf.hpp"
 
@@ -26,7 +26,7 @@ LampSeen seen_from(const Pose2& pose, const Eigen::Vector3d& lamp, RandomDraws& 
                            {sigma_azimuth_rad * sigma_azimuth_rad, kSigmaLamp_rad * kSigmaLamp_rad})};
 }
 
-/// A drive below a few lamps, from `start` in whatever map.
+/// A drive below four lamps. It starts at `T_map_start` in the map.
 struct Drive {
   explicit Drive(const Pose2& T_map_start, Retraction retraction = Retraction::invariant)
       : ekf({retraction, kCamera_m, 0.2}), truth(T_map_start) {
@@ -76,7 +76,8 @@ TEST(LampEkf, FindsLampsFromTheirFirstSightingOnAndKnowsHowWell) {
   for (unsigned seed = 0; seed < kSeeds; ++seed) {
     RandomDraws draws(seed);
     Drive drive({});
-    drive.truth = {draws.normal(0.01), draws.normal(0.01), draws.normal(0.01)};  // as the filter believes
+    // the initial error that the filter assumes
+    drive.truth = {draws.normal(0.01), draws.normal(0.01), draws.normal(0.01)};
     for (int i = 0; i < 30; ++i) drive.step(draws);
     for (std::size_t i = 0; i < kLamps; ++i) {
       EXPECT_LT((drive.ekf.point(drive.blocks[i]).p_map_lamp_m - drive.lamps[i]).norm(), 0.6);
@@ -114,8 +115,8 @@ TEST(LampEkf, MovingTheWholeMapChangesNothingElse) {
   }
 }
 
-/// The variance of the direction of the whole map can be no smaller than what the first pose said of it: no sighting
-/// says anything of it.
+/// The information on a turn of the robot and the map together about the origin. No sighting depends on this turn, so
+/// the information must not exceed that of the first pose.
 double information_on_the_turn(const LampEkf& ekf, std::span<const LampBlock> lamps) {
   std::vector<Index> entries{0, 1, 2};
   Eigen::VectorXd N = Eigen::VectorXd::Zero(3 + 5 * static_cast<Index>(lamps.size()));
@@ -136,7 +137,7 @@ double information_on_the_turn(const LampEkf& ekf, std::span<const LampBlock> la
 TEST(LampEkf, GainsNoInformationOnTheDirectionOfTheMap) {
   RandomDraws draws(11);
   Drive drive({1.0, 2.0, 0.3});
-  // Anchors of their own: from one pose their covariance would be singular.
+  // Each lamp gets an anchor of its own, because the covariance of a shared anchor would be singular.
   for (std::size_t i = 0; i < drive.lamps.size(); ++i) {
     drive.blocks.push_back(
         drive.ekf.add_lamp(seen_from(drive.truth, drive.lamps[i], draws), kInverse_per_m, kSigmaInverse_per_m));
@@ -171,7 +172,7 @@ TEST(LampEkf, MergingTwoEntriesOfOneLampIsWorthBothOfThem) {
   RandomDraws draws(13);
   Drive drive({});
   for (int i = 0; i < 40; ++i) drive.step(draws);
-  // The same lamp once more.
+  // A second entry of the same lamp.
   LampBlock twin =
       drive.ekf.add_lamp(seen_from(drive.truth, drive.lamps[0], draws), kInverse_per_m, kSigmaInverse_per_m);
   for (int i = 0; i < 25; ++i) {

@@ -1,5 +1,5 @@
-// The model of a lamp seen from below: every Jacobian against numeric differentiation, what happens straight above and
-// infinitely high, and that inverse height and point are two names of one thing.
+// The measurement model of a lamp above the robot: every Jacobian is compared with numeric differentiation, the limits
+// straight above and infinitely high are tested, and an inverse height agrees with the point that it describes.
 
 #include <gtest/gtest.h>
 
@@ -102,7 +102,7 @@ TEST(TangentDirection, JacobiansMatchFromTheZenithToTheHorizon) {
     const auto prediction = [&](const Eigen::VectorXd& at) {
       return Eigen::VectorXd(-seen.against(Eigen::Vector2d(at))->innovation);
     };
-    // Farther off, what is differentiated grows without bound.
+    // Farther off the derivative grows without bound.
     if (!residual || residual->innovation.norm() > 2.0) continue;
     EXPECT_LT(largest_difference(residual->by_offset, numeric_jacobian(prediction, m)), kJacobianTolerance);
   }
@@ -121,7 +121,7 @@ TEST(TangentDirection, ErrorsAreThoseOfAzimuthAndZenith) {
     EXPECT_NEAR(seen.against(above)->innovation.y(), kSmall_rad, 1e-9);
     EXPECT_NEAR(seen.variance().x(), 4e-4 * std::pow(std::sin(zenith_rad), 2), 1e-15);
     EXPECT_EQ(seen.variance().y(), 1e-4);
-    // The first sighting's noise and that of all later ones are the same thing.
+    // The noise of the first sighting must agree with the noise of all later ones.
     const Eigen::Matrix2d product = seen.against(seen.offset_per_metre())->by_offset * seen.offset_by_error();
     EXPECT_LT((product - Eigen::Matrix2d::Identity()).norm(), 1e-9);
   }

@@ -5,14 +5,14 @@
 
 #include "slam/ekf/rank_update_avx2.hpp"
 #include "slam/ekf/rank_update_avx512.hpp"
-#include "slam/ekf/rank_update_tile.hpp"  // the baseline path, which does not run on a processor with AVX2
+#include "slam/ekf/rank_update_tile.hpp"  // the baseline path, which processors with AVX2 do not use
 #include "tests/geometry/random_draws.hpp"
 
 namespace azimuth {
 namespace {
 
-/// The definition: each element summed over the columns in order, by separate multiplications and additions (the
-/// project is compiled without contraction), then subtracted.
+/// The definition: each element is summed over the columns in order with separate multiplications and additions, and
+/// then subtracted. The project is compiled without floating-point contraction.
 void subtract_by_definition(LowerTriangle A, SymmetricProduct product) {
   const auto W = [&](Index row, Index column) { return product.W[column * product.stride + row]; };
   for (Index column = 0; column < A.size; ++column)
@@ -37,7 +37,7 @@ void whiten_by_definition(double* W, Index stride, Index size, const double* L, 
 }
 
 struct Problem {
-  Index size, stride, columns, pairs, L_stride;  // pairs: of the columns
+  Index size, stride, columns, pairs, L_stride;  // pairs: number of column pairs
   std::vector<double> A, W, L;
 
   Problem(Index size_in, Index columns_in, RandomDraws& draws)
@@ -49,7 +49,7 @@ struct Problem {
     fill(A, stride * LowerTriangle::padded(size), draws);
     fill(W, stride * columns, draws);
     fill(L, L_stride * columns, draws);
-    for (Index k = 0; k < columns; ++k)  // a factor that does not make rounding grow
+    for (Index k = 0; k < columns; ++k)  // the large diagonal keeps rounding errors from growing
       L[static_cast<std::size_t>(k * (L_stride + 1))] = draws.uniform(3.0, 4.0) * static_cast<double>(columns);
   }
   std::vector<double> result_of(decltype(&subtract_by_definition) subtract) const {
@@ -82,7 +82,7 @@ void whiten_by_baseline(double* W, Index stride, Index size, const double* L, In
   whiten_all_rows(W, stride, size, L, L_stride, columns);
 }
 
-/// The baseline agrees bit by bit; fused multiply-adds round once instead of twice.
+/// The baseline must agree to the last bit. The other paths use fused multiply-adds, which round once instead of twice.
 template <class Function>
 void expect_paths_agree(const Problem& problem, Function by_definition, Function baseline, Function chosen,
                         [[maybe_unused]] Function avx2, [[maybe_unused]] Function avx512) {
@@ -122,7 +122,7 @@ TEST(RankUpdate, LargeMatrices) {
   for (const Index size : {255, 256, 259, 515}) expect_every_path_agrees(size, 12, draws);
 }
 
-/// The kernels themselves ask for a column at least.
+/// Zero columns are a special case, because the kernels require at least one column.
 TEST(RankUpdate, WithoutColumnsChangesNothing) {
   RandomDraws draws(53);
   const Problem problem(9, 0, draws);

@@ -1,4 +1,4 @@
-// The iterated update against the maximum a posteriori estimate found by a dense Gauss-Newton of its own.
+// The iterated update compared with the maximum a posteriori estimate of a dense Gauss-Newton solver.
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -31,7 +31,8 @@ BearingEkfSettings settings_for(Retraction retraction, int iterations, double mi
   return settings;
 }
 
-/// A filter that knows five landmarks well and then has driven blindly: a hard prior of large heading uncertainty.
+/// A filter that knows five landmarks well and has then driven without bearings: the heading of its prior is very
+/// uncertain.
 struct LostRobot {
   BearingEkf ekf;
   std::vector<Index> landmarks;
@@ -79,7 +80,7 @@ struct LostRobot {
   }
 };
 
-/// The posterior of robot and landmarks in dense form: entry 3 + 2 i is landmark i.
+/// The posterior of robot and landmarks in dense form. Landmark i has the entries 3 + 2 i and 4 + 2 i.
 class DensePosterior {
  public:
   DensePosterior(const LostRobot& prior, const std::vector<MappedSighting>& sightings, Retraction retraction)
@@ -94,7 +95,7 @@ class DensePosterior {
     return x;
   }
 
-  /// Minus the log posterior, in corrections of the prior.
+  /// The negative log posterior as a function of the correction of the prior.
   double cost(const Eigen::VectorXd& delta) const {
     return 0.5 * delta.dot(P_.llt().solve(delta)) +
            0.5 * innovations(delta).squaredNorm() / (kSigmaAzimuth_rad * kSigmaAzimuth_rad);
@@ -113,9 +114,9 @@ class DensePosterior {
     return delta;
   }
 
-  /// Derivative of the predicted azimuths by the correction.
+  /// The derivative of the predicted azimuths with respect to the correction.
   Eigen::MatrixXd jacobian(const Eigen::VectorXd& delta) const {
-    // The innovations of these tests stay away from the wrap.
+    // The innovations of these tests stay away from the wrap at pi.
     return -numeric_jacobian([&](const Eigen::VectorXd& at) { return innovations(at); }, delta, {}, 1e-4);
   }
   const Eigen::MatrixXd& prior_covariance() const { return P_; }
@@ -137,21 +138,21 @@ class DensePosterior {
   Retraction retraction_;
 };
 
-/// Largest difference in standard deviations of `covariance`.
+/// The largest difference in standard deviations of `covariance`.
 double in_sigmas(Eigen::VectorXd difference, const Eigen::MatrixXd& covariance) {
   difference(2) = wrap(difference(2));
   return (difference.array().abs() / covariance.diagonal().array().sqrt()).maxCoeff();
 }
 
 const Eigen::Vector3d kHardSigma(0.5, 0.5, 0.5);
-const Eigen::Vector3d kIteratedSigma(0.2, 0.2, 0.05);  // the heading at the limit of iteration
+const Eigen::Vector3d kIteratedSigma(0.2, 0.2, 0.05);  // the heading is at the limit of iteration
 
 class Iterated : public testing::TestWithParam<Retraction> {};
 
 TEST_P(Iterated, ReachesTheMaximumAPosteriori) {
   RandomDraws draws(91);
-  // The invariant error is carried along as it is, so its maximum is exact only for small turns: it is tried within
-  // the limit at which the filter iterates.
+  // The filter transports the invariant error unchanged, so its maximum is exact only for small turns. The invariant
+  // update is therefore tested within the heading limit at which the filter iterates.
   const bool additive = GetParam() == Retraction::additive;
   const Eigen::Vector3d sigma = additive ? kHardSigma : kIteratedSigma;
   double plain_worst = 0.0, iterated_worst = 0.0;
@@ -161,7 +162,7 @@ TEST_P(Iterated, ReachesTheMaximumAPosteriori) {
     const Pose2 true_pose =
         iterated.ekf.state().pose() * Pose2{draws.normal(sigma(0)), draws.normal(sigma(1)), heading_error_rad};
     auto sightings = iterated.seen_from(true_pose, &draws);
-    if (trial % 4 < 2) sightings.resize(2);  // too few for a pose: the prior decides the rest
+    if (trial % 4 < 2) sightings.resize(2);  // too few bearings to determine a pose; the prior supplies the rest
     const DensePosterior posterior(iterated, sightings, GetParam());
     const Eigen::VectorXd delta = posterior.maximum();
 
@@ -180,8 +181,8 @@ TEST_P(Iterated, ReachesTheMaximumAPosteriori) {
 TEST_P(Iterated, CovarianceIsThatAtTheMaximum) {
   const bool additive = GetParam() == Retraction::additive;
   const Eigen::Vector3d sigma = additive ? kHardSigma : kIteratedSigma;
-  // The exponential's derivative would tilt the prior by half the turn; the invariant filter leaves it as it is, since
-  // only then an unobservable turn stays one. Thin ellipses show the difference.
+  // The derivative of the exponential would turn the prior by half the correction. The invariant filter leaves the
+  // prior unchanged, so that an unobservable turn remains unobservable. Thin ellipses show the difference.
   const double tolerance = additive ? 0.01 : 0.25;
 
   LostRobot robot(settings_for(GetParam(), 20), sigma);
@@ -191,7 +192,7 @@ TEST_P(Iterated, CovarianceIsThatAtTheMaximum) {
   const Eigen::VectorXd delta = posterior.maximum();
   const Eigen::MatrixXd H = posterior.jacobian(delta);
   const Eigen::MatrixXd information = H.transpose() * H / (kSigmaAzimuth_rad * kSigmaAzimuth_rad);
-  // From corrections of the prior to the coordinates of the new mean.
+  // Maps corrections of the prior to the coordinates of the new mean.
   const Eigen::MatrixXd by_delta =
       numeric_jacobian([&](const Eigen::VectorXd& at) { return posterior.retract(at); }, delta);
   const Eigen::MatrixXd expected =
@@ -224,14 +225,14 @@ TEST_P(Iterated, SmallCorrectionsAreThoseOfThePlainUpdate) {
   EXPECT_LT(in_sigmas(iterated.mean() - plain.mean(), plain.covariance()), 1e-2);
 }
 
-/// Both filters the same to the last bit.
+/// Expects both filters to be equal to the last bit.
 void expect_same(const LostRobot& a, const LostRobot& b) {
   EXPECT_EQ(a.mean(), b.mean());
   EXPECT_EQ(a.covariance(), b.covariance());
 }
 
 TEST_P(Iterated, FallsBackToThePlainUpdateWhenTheBearingsCannotBe) {
-  // Bearings that need a correction of many standard deviations: there is no point near the prior to linearise at.
+  // The bearings require a correction of many standard deviations, so there is no linearisation point near the prior.
   const Eigen::Vector3d confident(0.02, 0.02, 0.02);
   LostRobot iterated(settings_for(GetParam(), 20), confident), plain(settings_for(GetParam(), 1), confident);
   const auto sightings = iterated.seen_from(iterated.ekf.state().pose() * Pose2{1.5, 1.0, 1.0});
@@ -248,7 +249,7 @@ TEST_P(Iterated, FallsBackWhenALandmarkComesTooNearOnTheWay) {
   const double distance_m = (nearest - prior.position()).norm();
   const Eigen::Vector2d towards = 0.5 * (nearest - prior.position()) / distance_m;
   const Pose2 true_pose{prior.x_m + towards.x(), prior.y_m + towards.y(), prior.heading_rad};
-  const double limit_m = distance_m - 0.1;  // usable at the prior, not at the truth
+  const double limit_m = distance_m - 0.1;  // the landmark is usable from the prior pose, but not from the true pose
 
   LostRobot iterated(settings_for(GetParam(), 20, limit_m), position_unknown);
   LostRobot plain(settings_for(GetParam(), 1, limit_m), position_unknown);

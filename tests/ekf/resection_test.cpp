@@ -17,10 +17,10 @@ constexpr double kSigmaDirection_rad = 0.01, kNearest_m = 0.05;
 struct Room {
   Pose2 T_map_body;
   std::vector<DirectionTo> directions;
-  Eigen::MatrixXd P;  // of the landmarks
+  Eigen::MatrixXd P;  // covariance of the landmarks
 };
 
-/// A robot anywhere among landmarks whose positions are known as well as `sigma_landmark_m`, correlated.
+/// A robot among landmarks whose position errors are correlated and have a standard deviation of `sigma_landmark_m`.
 Room room(int landmarks, double sigma_landmark_m, RandomDraws& draws) {
   Room room{{draws.uniform(-5.0, 5.0), draws.uniform(-5.0, 5.0), draws.uniform(-kPi, kPi)}, {}, {}};
   const Index n = 2 * landmarks;
@@ -106,7 +106,7 @@ TEST(Resection, SeesThatNamesAreMixedUp) {
     std::swap(here.directions[0].azimuth_rad, here.directions[1].azimuth_rad);
     std::swap(here.directions[2].azimuth_rad, here.directions[3].azimuth_rad);
     const auto found = resect(here.directions, here.P, kSigmaDirection_rad * kSigmaDirection_rad, kNearest_m);
-    if (found && found->chi2 < 13.3) ++believed;  // 99 % of 4 degrees of freedom
+    if (found && found->chi2 < 13.3) ++believed;  // 99 % quantile of 4 degrees of freedom
   }
   EXPECT_LE(believed, 2);
 }
@@ -118,7 +118,7 @@ TEST(Resection, NeedsThreeDirections) {
   EXPECT_FALSE(resect({}, Eigen::MatrixXd(0, 0), kSigmaDirection_rad * kSigmaDirection_rad, kNearest_m));
 }
 
-/// A map made from two poses; then the robot is carried away.
+/// A map is made from two poses; then the robot is carried away.
 TEST(Relocation, CorrelatesThePoseWithTheMapItWasFoundIn) {
   BearingEkf ekf({.retraction = JointState::Retraction::additive});
   const auto drive = [&](double distance_m) {
@@ -132,7 +132,7 @@ TEST(Relocation, CorrelatesThePoseWithTheMapItWasFoundIn) {
   const Index start = ekf.clone_robot();
   drive(2.0);
   std::vector<MappedSighting> sightings;
-  const Pose2 T_map_body{1.0, 1.0, 2.0};  // where it is carried to
+  const Pose2 T_map_body{1.0, 1.0, 2.0};  // the pose after the robot was carried away
   for (const Eigen::Vector2d& p : landmarks) {
     const auto seen = [&](Index pose) {
       return ekf.sighting_from(pose, predict_bearing(ekf.state().pose(pose), p, kNearest_m)->azimuth_rad);

@@ -1,5 +1,5 @@
-// What the invariant retraction promises: the textbook correction to first order, no dependence on the frame of the
-// map, and no information about the direction the map as a whole points in.
+// Properties of the invariant retraction: it equals the additive correction to first order, does not depend on the
+// frame of the map, and gains no information on the direction of the whole map.
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -25,7 +25,7 @@ constexpr Index kHeading = JointState::kPose + 2;
 
 Index landmark_block(int landmark) { return 3 + 2 * landmark; }
 
-/// A robot among landmarks, everything uncertain and correlated: blocks in order, no gaps.
+/// A robot among landmarks, all uncertain and correlated. The blocks follow each other without gaps.
 struct LinearProblem {
   Eigen::VectorXd mean;
   Eigen::MatrixXd covariance;
@@ -172,7 +172,7 @@ TEST_P(Gauge, MovingTheWholeProblemCommutesWithTheUpdate) {
   for (int trial = 0; trial < 50; ++trial) {
     const LinearProblem problem = random_problem(draws);
     const Pose2 T_new_old = draws.pose(100.0);
-    const Eigen::VectorXd innovations = 0.2 * draws.normals(kLandmarks);  // a correction far beyond first order
+    const Eigen::VectorXd innovations = 0.2 * draws.normals(kLandmarks);  // large, so that second-order terms matter
     const LinearProblem here = transformed(updated(problem, innovations, GetParam()), T_new_old);
     const LinearProblem there = updated(transformed(problem, T_new_old), innovations, GetParam());
     Eigen::VectorXd difference = here.mean - there.mean;
@@ -186,7 +186,7 @@ INSTANTIATE_TEST_SUITE_P(Both, Gauge, testing::Values(Retraction::additive, Retr
 
 // ---- (c) Bearings say nothing about the direction of the whole map ----
 
-/// N^T P^-1 N: the information on turning robot and map together about the origin.
+/// N^T P^-1 N: the information on a turn of the robot and the map together about the origin.
 double information_on_the_turn(const JointState& state) {
   const LinearProblem problem = problem_of(state);
   Eigen::VectorXd N = Eigen::VectorXd::Zero(kSize);
@@ -197,8 +197,8 @@ double information_on_the_turn(const JointState& state) {
   return N.dot(problem.covariance.llt().solve(N));
 }
 
-/// Landmarks roughly placed relative to a robot of uncertain heading: what is known of the direction of the whole map
-/// is what is known of the robot's heading, and stays so.
+/// The covariance of landmarks that are roughly placed relative to a robot of uncertain heading. The direction of the
+/// whole map is as well known as the robot's heading, and must stay so.
 Eigen::MatrixXd seen_from_the_robot(const Eigen::VectorXd& mean) {
   constexpr double kSigmaPlace_m = 0.7, kSigmaRobot_m = 0.1, kSigmaHeading_rad = 0.3;
   Eigen::MatrixXd B = Eigen::MatrixXd::Zero(kSize, 3);
@@ -216,8 +216,8 @@ Eigen::MatrixXd seen_from_the_robot(const Eigen::VectorXd& mean) {
   return P;
 }
 
-/// Drives 20 steps past the landmarks with wrong beginnings of the size the covariance says, and returns the
-/// information on the turn before the first and after each step.
+/// Drives 20 steps past the landmarks, from an initial error drawn from the covariance. Returns the information on the
+/// turn before the first step and after each step.
 std::vector<double> drive(unsigned seed, Retraction retraction, double motion_noise_sigma) {
   constexpr double kSigmaBearing_rad = 0.02;
   RandomDraws draws(seed);

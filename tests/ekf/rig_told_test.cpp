@@ -1,4 +1,5 @@
-// What a filter that does not know of a rig's errors hears of them, of images taken earlier than stamped above all.
+// Estimates of the rig's errors from a filter that only considers them, above all of the lag: images that were taken
+// earlier than their stamps say.
 
 #include "slam/ekf/rig_told.hpp"
 
@@ -18,7 +19,7 @@ namespace {
 constexpr double kPeriod_s = 0.25, kSpeed_m_per_s = 0.3, kSigmaSeen_rad = 0.01;
 constexpr int kImages = 200;
 
-/// Now and then the robot turns to one side, now and then to the other.
+/// The robot turns to the left and to the right in alternation.
 double turn_rate_rad_per_s(int image) { return 0.6 * std::sin(0.1 * image); }
 
 Control control_of(int image) { return {kSpeed_m_per_s * kPeriod_s, 0.0, turn_rate_rad_per_s(image) * kPeriod_s}; }
@@ -28,7 +29,7 @@ Pose2 earlier(const Pose2& pose, const Eigen::Vector3d& velocity, double by_s) {
   return pose * Pose2{-by_s * velocity.x(), 0.0, -by_s * velocity.z()};
 }
 
-/// What a filter says that sees twelve landmarks `lag_s` earlier than it is told.
+/// The lag that the filter finds when it sees twelve landmarks `lag_s` earlier than the stamps say.
 LagFound found_after_a_drive(double lag_s, const Eigen::Vector2d& sigma_scales, RandomDraws& draws) {
   BearingEkfSettings settings;
   settings.sigma_considered.head<2>() = sigma_scales;
@@ -54,7 +55,7 @@ LagFound found_after_a_drive(double lag_s, const Eigen::Vector2d& sigma_scales, 
                     Eigen::Vector3d(std::cos(heading_rad) * end.x(), std::sin(heading_rad) * end.x(), end.z());
     ekf.predict(motion);
     pose = move(pose, told);
-    // The truth goes as odometry says, but for its noise.
+    // The true pose follows odometry with the noise that the filter assumes.
     pose = pose * Pose2{draws.normal(std::sqrt(1e-4 * kSpeed_m_per_s * kPeriod_s)), 0.0,
                         draws.normal(std::sqrt(1e-4 * std::abs(told.second_turn_rad)))};
     const Pose2 seen_from = earlier(pose, end, lag_s);
@@ -72,7 +73,7 @@ LagFound found_after_a_drive(double lag_s, const Eigen::Vector2d& sigma_scales, 
   return found.value_or(LagFound{});
 }
 
-/// Over many drives the error is what its sigma says, and small beside the lags that matter.
+/// Over many drives the error agrees with its standard deviation, and the latter is small compared with relevant lags.
 TEST(LagFound, IsThatOfTheImagesWithinItsSigma) {
   constexpr int kDrives = 40;
   for (const double lag_s : {-0.06, 0.0, 0.06}) {
@@ -95,7 +96,8 @@ TEST(LagFound, IsThatOfTheImagesWithinItsSigma) {
 
 using Errors = Eigen::Matrix<double, considered::kCount, considered::kCount>;
 
-/// Pose and constants in one filter, all linear, beside a filter of the pose that allows for some of them on the way.
+/// A linear filter over pose and constants must agree with the filter over the pose alone, which considers the
+/// constants and takes over values for them on the way through JointState::believe().
 TEST(RigTold, PutRightByItAFilterIsOneThatEstimatesTheConstants) {
   constexpr int kAll = 3 + considered::kCount;
   RandomDraws draws(8);
@@ -143,8 +145,8 @@ TEST(RigTold, PutRightByItAFilterIsOneThatEstimatesTheConstants) {
   EXPECT_LT(largest_difference(state.pose_covariance() + D * M * D.transpose(), P.topLeftCorner<3, 3>()), 1e-9);
 }
 
-/// Whatever is measured, in whatever mixture: of constants that explain the same, the one that was doubted first is not
-/// told when its own error bar covers what is left of it.
+/// Among constants that explain the same measurements, a constant must not be doubted when its own standard deviation
+/// covers the rest of its error.
 TEST(RigTold, NothingIsDoubtedThatItsOwnErrorBarCovers) {
   RandomDraws draws(9);
   int doubted = 0;
@@ -174,7 +176,7 @@ TEST(RigTold, NothingIsDoubtedThatItsOwnErrorBarCovers) {
   EXPECT_GT(doubted, 1000);
 }
 
-/// What is believed moves a map as a correction does: where all stands to each other stays as it was.
+/// JointState::believe() moves a map as a correction does: the map turns as a whole and keeps its shape.
 TEST(RigTold, AMapThatIsTurnedByWhatIsBelievedKeepsItsShape) {
   BearingEkfSettings settings;
   settings.sigma_considered(considered::yaw) = 0.01;

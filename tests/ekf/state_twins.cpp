@@ -8,7 +8,7 @@
 namespace azimuth {
 
 void Twins::add(BlockKind kind) {
-  // Depends on the robot and on one other block, as an intersection of two rays does.
+  // The new block depends on the robot and on one other block, as an intersection of two rays does.
   const std::size_t other = static_cast<std::size_t>(draws_.integer(0, static_cast<int>(size()) - 1));
   std::vector<Index> sources{0, 1, 2}, dense_sources{0, 1, 2};
   for (Index i = 0; other > 0 && i < size_of(dense.blocks[other].kind); ++i) {
@@ -28,7 +28,7 @@ void Twins::add(BlockKind kind) {
   dense.add(kind, mean, J_dense, noise);
 }
 
-/// An inverse depth or an inverse height, into the point it describes.
+/// Promotes an inverse depth or an inverse height to the point that it describes.
 void Twins::promote_one() {
   std::vector<std::size_t> rays;
   for (std::size_t b = 1; b < size(); ++b)
@@ -91,7 +91,8 @@ Twins::Rows Twins::draw(int rows) {
       const auto block = static_cast<std::size_t>(draws_.integer(0, static_cast<int>(size()) - 1));
       if (std::find(parts.begin(), parts.end(), block) == parts.end()) parts.push_back(block);
     }
-    if (parts.size() > 1 && draws_.chance(0.3)) parts.erase(parts.begin());  // a clone's view: not of the robot
+    // a row from a clone, which does not involve the robot
+    if (parts.size() > 1 && draws_.chance(0.3)) parts.erase(parts.begin());
     for (const std::size_t block : parts) {
       const Eigen::VectorXd h = 0.3 * draws_.normals(size_of(dense.blocks[block].kind));
       row.add(offsets_[block], {h.data(), static_cast<std::size_t>(h.size())});

@@ -7,7 +7,7 @@
 
 namespace azimuth {
 
-/// Both filters side by side, given the same operations.
+/// JointState and the dense reference filter side by side, given the same operations.
 class Twins {
  public:
   Twins(unsigned seed, JointState::Retraction retraction)
@@ -67,9 +67,9 @@ class Twins {
   JointState::Retraction retraction_;
   Pose2 start_;
   Eigen::Matrix3d P_start_;
-  std::vector<Index> offsets_{JointState::kPose};  // of the dense state's blocks, in its order
+  std::vector<Index> offsets_{JointState::kPose};  // offsets of the dense state's blocks, in its order
 
-  /// Rows on some of the blocks, sparse and dense.
+  /// Observation rows on some of the blocks, in sparse and in dense form.
   struct Rows {
     std::vector<ObservationRow> sparse;
     Eigen::MatrixXd H;

@@ -14,7 +14,7 @@ namespace {
 
 // ---- Rejection before sampling ----
 
-/// Bearings of `landmark` from both poses.
+/// The bearings of `landmark` from both poses.
 std::pair<Sighting, Sighting> sightings_of(const Eigen::Vector2d& landmark, const Pose2& i, const Pose2& j) {
   return {{i, predict_bearing(i, landmark, 0.0)->azimuth_rad}, {j, predict_bearing(j, landmark, 0.0)->azimuth_rad}};
 }
@@ -99,7 +99,7 @@ TEST(SemidefiniteCholesky, OfAnyRank) {
 TEST(LandmarkCovariance, IsThatOfSampledIntersections) {
   RandomDraws draws(85);
   const auto [i, j] = sightings_of({2.0, 2.0}, {0.0, 0.0, 0.4}, {1.0, -0.2, 0.7});
-  const Matrix6d P6 = draws.covariance(6, 1e-4);  // small: the first order is all there is
+  const Matrix6d P6 = draws.covariance(6, 1e-4);  // small, so that the first-order covariance is accurate
   constexpr double kSigma_rad = 1e-4;
   const auto mean = intersect(i, j);
   const Matrix6d L = semidefinite_cholesky(P6);
@@ -119,7 +119,8 @@ TEST(LandmarkCovariance, IsThatOfSampledIntersections) {
 }
 
 TEST(QualityTest, DoesNotDependOnTheFrameOrOnTheRobotsHeadings) {
-  // Exact with certain poses. With uncertain ones the fixed samples are turned against the geometry.
+  // Exact only with certain poses: the samples of uncertain poses are fixed, so a rotation turns them relative to the
+  // geometry.
   RandomDraws draws(86);
   const QualityTest test(1000);
   const Eigen::Vector2d landmark(2.0, 3.0);
@@ -143,9 +144,10 @@ TEST(QualityTest, TermsAverageToTheRelativeEntropy) {
   EXPECT_NEAR(sum / 50.0, test.relative_entropy(i, j, Matrix6d::Identity() * 1e-4, 0.02), 1e-12);
 }
 
-// ---- The curve of SPEC I.9: median over draws, against parallax, 1 m baseline ----
+// ---- The curve of mathematics I.9: median over draws, against parallax, 1 m baseline ----
 
-/// Of the second pose: a 1 m drive with small turns under the paper's odometry noise (SPEC I.3, set 1 and set 2).
+/// The covariance of both poses when the first is certain and the second follows after 1 m with small turns, under the
+/// paper's odometry noise (mathematics I.3, set 1 and set 2).
 Matrix6d covariance_after_a_metre(double sigma_m, double sigma_deg) {
   constexpr double kTurn_rad = 0.1;
   MotionNoise noise;
@@ -179,8 +181,8 @@ struct CurvePoint {
   double parallax_deg, relative_entropy;
 };
 
-/// The reference's draws of poses and landmarks are not known, so the curve is met within a factor; near parallel the
-/// estimate has no finite expectation and only its size is compared.
+/// The reference's draws of poses and landmarks are not known, so the curve is compared within a factor. Near parallel
+/// the estimate has no finite expectation, so only its magnitude is compared.
 void expect_curve(double sigma_deg, const Matrix6d& P6, std::initializer_list<CurvePoint> curve) {
   const QualityTest test(1000);
   for (const CurvePoint& point : curve) {

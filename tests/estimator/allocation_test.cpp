@@ -23,17 +23,17 @@ class EstimatorAllocation : public testing::TestWithParam<Configuration> {};
 TEST_P(EstimatorAllocation, NoneInTheSecondAndThirdLap) {
   Scenario scenario = lab(1, 3);
   scenario.sensor.identities = GetParam().identities;
-  World world = simulate(scenario);  // whose sets give their storage to the stage
+  World world = simulate(scenario);  // its sets give their storage to the stage
   const Rig rig = rig_of(scenario);
   EkfSettings settings;
   settings.initialisation = GetParam().initialisation;
-  settings.max_landmarks = 24;  // without identities the map would go on growing slowly
+  settings.max_landmarks = 24;  // without identities the map would keep growing slowly
   auto estimator = std::make_unique<EkfEstimator>(rig, settings);
   const JointState& state = estimator->filter().state();
   EstimatorStage stage(std::move(estimator), rig, StageSettings{});
   Estimate estimate, prediction;
 
-  const Stamp warm = Stamp{std::chrono::seconds(75)};  // a lap takes 70
+  const Stamp warm = Stamp{std::chrono::seconds(75)};  // a lap takes 70 s
   std::size_t in_first_lap = 0, later = 0, reading = 0, steps = 0, most_at_once = 0;
   Index largest = 0;
   for (BearingSet& set : world.bearings) {
@@ -46,14 +46,14 @@ TEST_P(EstimatorAllocation, NoneInTheSecondAndThirdLap) {
     }
     stage.add(set);
     while (stage.advance(estimate)) ++steps;
-    // Without identities the state may grow at any time, and so may the number of bearings that correct it at once.
+    // Without identities, the state and the number of bearings in one update may grow at any time.
     const bool grew = state.extent() > largest || estimate.accepted.size() > most_at_once;
     largest = std::max(largest, state.extent());
     most_at_once = std::max(most_at_once, estimate.accepted.size());
     (is_warm && !grew ? later : in_first_lap) += allocations() - before;
   }
   EXPECT_GT(steps, 900u);
-  EXPECT_GT(in_first_lap, 0u);  // the counter counts
+  EXPECT_GT(in_first_lap, 0u);  // the counter works
   EXPECT_EQ(later, 0u);
 }
 

@@ -1,4 +1,5 @@
-// A camera whose axis is not where rig.toml says: knocked, or never calibrated. The estimator finds out by itself.
+// A camera whose image centre differs from rig.toml, because it was knocked or never calibrated. The estimator finds
+// the offset by itself.
 
 #include <Eigen/LU>
 #include <cstdio>
@@ -10,9 +11,9 @@
 namespace azimuth {
 namespace {
 
-constexpr double kFar_px = 300.0;  // where the horizon lies in the image
+constexpr double kFar_px = 300.0;  // radius of the horizon in the image
 
-/// Turns the bearings into what a camera sees whose assumed centre is `offset_px` short of the true one.
+/// Changes the bearings to those computed with a wrong image centre, `offset_px` short of the true one.
 void knock(World& world, const Eigen::Vector2d& offset_px, RandomDraws& draws) {
   for (BearingSet& set : world.bearings)
     for (Bearing& bearing : set.bearings) {
@@ -55,7 +56,7 @@ KnockedDrive drive_knocked(unsigned seed, bool names, const Eigen::Vector2d& off
   return outcome;
 }
 
-class KnockedCamera : public testing::TestWithParam<bool> {};  // names, or four colours
+class KnockedCamera : public testing::TestWithParam<bool> {};  // parameter: names, or else four colours
 
 TEST_P(KnockedCamera, FindsItsCentre) {
   constexpr int kSeeds = 6;

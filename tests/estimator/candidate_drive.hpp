@@ -44,7 +44,7 @@ struct Drive {
 
   void go(double distance_m) { ekf.predict(straight_on(distance_m)); }
 
-  /// An image with these landmarks in it, all unmapped.
+  /// Observes an image that contains these landmarks, all unmapped.
   void look(const Landmarks& landmarks, const std::vector<Identity>& seen) {
     std::vector<Bearing> bearings;
     for (const Identity identity : seen) bearings.push_back(bearing_of(landmarks, identity));
@@ -72,7 +72,7 @@ struct Drive {
   Candidates candidates;
 };
 
-/// What the clones' counts of users must say, whatever happened.
+/// The clones' counts of users must match the candidates' bearings after any sequence of operations.
 inline void expect_consistent(const Drive& drive) {
   std::vector<int> users(drive.candidates.clones().size(), 0);
   std::set<Identity> identities;

@@ -1,4 +1,4 @@
-// How long bearings of what is not mapped yet are kept, and how many.
+// How long the bearings of landmarks that are not mapped yet are kept, and how many of them.
 
 #include <array>
 #include <gtest/gtest.h>
@@ -121,7 +121,7 @@ TEST(Candidates, TwoNamesInOneImageAreTwoLandmarks) {
 }
 
 TEST(Candidates, OneNameTwiceInAnImageIsNeverTwoLandmarksOrAPairOfItself) {
-  // A sensor misreads: one of the two bearings is of something else.
+  // One of the two bearings is misread: it belongs to another object.
   Drive drive({});
   int created = 0;
   for (int image = 0; image < 10 && created == 0; ++image) {

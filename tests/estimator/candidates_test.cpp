@@ -40,7 +40,7 @@ TEST(Candidates, ImageWithoutUnmappedLandmarksMakesNoClone) {
   EXPECT_EQ(drive.candidates.images(), 1u);
 }
 
-/// SPEC I.2, steps 4 to 7, written out: three sightings, the better pair, one update with the third.
+/// mathematics I.2, steps 4 to 7, written out: three sightings, the better pair, one update with the third.
 struct ByHand {
   ByHand() {
     blocks[0] = ekf.clone_robot();
@@ -81,7 +81,8 @@ TEST_P(AgainstByHand, PairIsUsedUpTheRestAppliedAndClonesDropped) {
     settings.delayed.kl_threshold = 1.0;
     settings.delayed.best_pair = best_pair;
   }));
-  // The later pair is the better one: at the first sighting the landmark is far, and the pose in between uncertain.
+  // The later pair is the better one: the landmark is far from the first pose, and the first pose is more uncertain
+  // relative to the last.
   const Landmarks landmarks{{1.6, 0.9}};
   std::array<double, 3> azimuths_rad{};
   for (std::size_t image = 0; image < 3; ++image) {
@@ -126,7 +127,7 @@ TEST(Candidates, InitialisedLandmarkStandsWhereItIs) {
   }
   ASSERT_EQ(drive.candidates.created().size(), 1u);
   const Index block = drive.candidates.created().front().block;
-  EXPECT_LT((drive.ekf.state().position(block) - kOne[0]).norm(), 1e-6);  // there was no noise
+  EXPECT_LT((drive.ekf.state().position(block) - kOne[0]).norm(), 1e-6);  // there is no noise
   EXPECT_LT(drive.candidates.created().front().relative_entropy, EkfSettings{}.delayed.kl_threshold);
 }
 

@@ -7,7 +7,7 @@
 namespace azimuth {
 namespace {
 
-/// A metre straight on, known to 2 cm and 0.02 rad.
+/// A metre straight on, with standard deviations of 2 cm and 0.02 rad.
 Motion metre() {
   Motion motion{.T_start_end = {1.0, 0.0, 0.0}, .path_m = 1.0};
   motion.covariance.diagonal() << 4e-4, 4e-4, 4e-4;

@@ -1,4 +1,4 @@
-// Landmarks that were mapped twice become one again; two that stand close together stay two.
+// Landmarks that were mapped twice are merged; two landmarks close together stay two.
 
 #include "slam/planar/duplicates.hpp"
 
@@ -12,10 +12,10 @@
 namespace azimuth {
 namespace {
 
-/// Points at known places, as uncertain as asked.
+/// Points at known places with given uncertainties.
 struct Map {
   Index add(const Eigen::Vector2d& p_map_m, double sigma_m) {
-    // Two bearings from exactly known poses: rays along x and along y that meet there.
+    // Two bearings from exactly known poses: rays along x and along y, which meet at the point.
     const Sighting along_x{{p_map_m.x() - 1.0, p_map_m.y(), 0.0}, 0.0};
     const Sighting along_y{{p_map_m.x(), p_map_m.y() - 1.0, 0.0}, kPi / 2};
     return ekf.add_point(*intersect(along_x, along_y), JointState::kPose, JointState::kPose, sigma_m);
@@ -65,7 +65,7 @@ TEST(Duplicates, TwoSeenTogetherAreTwo) {
   Points points{{1, 2, map.add({3.0, 1.0}, 0.1), 9, true}, {2, 2, map.add({3.1, 1.1}, 0.1), 8, true}};
   Duplicates duplicates(after(5));
   for (int i = 0; i < 100; ++i) {
-    points[1].seen = i % 2 == 0;  // the other one hides it half of the time
+    points[1].seen = i % 2 == 0;  // the other landmark hides this one half of the time
     EXPECT_FALSE(found(duplicates, map, points));
   }
 }
@@ -96,7 +96,7 @@ TEST(Duplicates, MergedPointsAreTheirWeightedMean) {
   EXPECT_NEAR(map.ekf.state().position_covariance(a)(0, 0), 0.01 * 0.04 / 0.05, 1e-4);
 }
 
-/// Points that stand near an older one of their kind.
+/// The number of points that have an older point of the same kind within `within_m`.
 std::size_t duplicates_in(const EkfEstimator& estimator, double within_m) {
   const JointState& state = estimator.filter().state();
   const auto is_point = [](const EkfEstimator::Landmark& landmark) { return landmark.block_kind == BlockKind::point; };
@@ -108,8 +108,8 @@ std::size_t duplicates_in(const EkfEstimator& estimator, double within_m) {
   }));
 }
 
-/// Eight colours of landmarks, seen by a camera whose bearings scatter twice as much as its rig says: some fail
-/// the gate of their own landmark and start another one.
+/// The number of duplicates after a drive among landmarks of eight colours. The bearings scatter twice as much as the
+/// rig says, so some fail the gate of their landmark and start a new one.
 std::size_t duplicates_of_a_bad_camera(unsigned seed, const MergingSettings& merging) {
   const Scenario scenario = lab(seed, 3);
   World world = simulate(scenario);

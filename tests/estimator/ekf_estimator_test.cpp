@@ -52,7 +52,7 @@ TEST(EkfEstimator, NamelessBearingsOfACameraThatReadsNamesAreIgnored) {
   EXPECT_TRUE(estimator.candidates().candidates().empty());
 }
 
-/// What must hold with either initialisation, in the lab with known identities.
+/// Properties of both kinds of initialisation, in the lab with known identities.
 class InTheLab : public testing::TestWithParam<Initialisation> {
  protected:
   EkfSettings settings() const {
@@ -96,7 +96,8 @@ TEST_P(InTheLab, UsesEachLandmarkAtMostOnceInTheThinningTime) {
     }
   };
   drive.run(world);
-  EXPECT_GT(drive.last().association.thinned, drive.last().association.accepted);  // at 5 Hz two of three are
+  // at 5 Hz two of three bearings are thinned out
+  EXPECT_GT(drive.last().association.thinned, drive.last().association.accepted);
 
   EkfSettings every_one = settings();
   every_one.thinning_s = 0.0;
@@ -145,7 +146,7 @@ TEST_P(InTheLab, LandmarkThatWasMovedIsFoundAgain) {
   EXPECT_EQ(drive.last().health, Health::tracking);
 }
 
-/// From `when` on the odometer has counted a motion that never happened.
+/// Adds a motion that never happened to the odometry from `when` on.
 void slip(World& world, Stamp when, const Pose2& T_before_after) {
   const auto first = std::ranges::find_if(world.odometry, [&](const auto& reading) { return reading.stamp >= when; });
   const Pose2 T_odom_there = first->T_odom_body;
@@ -174,7 +175,7 @@ TEST_P(InTheLab, PoseIsFoundAgainAfterTheWheelsSlipped) {
   EXPECT_EQ(found, kSeeds);
 }
 
-/// The wheels turn freely, or the robot is carried: odometry knows nothing of metres and half a turn, and says so.
+/// The wheels turn freely or the robot is carried. Odometry then misses metres and half a turn, and reports the gap.
 TEST_P(InTheLab, TheMapStaysWhereItIsWhenOdometryIsMissing) {
   constexpr int kSeeds = 10;
   double worst_m = 0.0;
@@ -183,7 +184,7 @@ TEST_P(InTheLab, TheMapStaysWhereItIsWhenOdometryIsMissing) {
     const Scenario scenario = lab(static_cast<std::uint64_t>(seed), 6);
     World world = simulate(scenario);
     std::uint32_t origin = 0;
-    for (int outage = 0; outage < 20; ++outage) {  // each of 3 s, of 15 s, from the second lap on
+    for (int outage = 0; outage < 20; ++outage) {  // outages of 3 s, one every 15 s, from the second lap on
       const Stamp from = Stamp{lap() + std::chrono::seconds(15 * outage)}, until = from + std::chrono::seconds(3);
       std::erase_if(world.odometry, [&](const OdometryReading& r) { return r.stamp > from && r.stamp < until; });
       const auto next =
@@ -211,7 +212,7 @@ TEST_P(InTheLab, CameraYawConverges) {
   scenario.sensor.yaw_offset_rad = 0.1;
   const World world = simulate(scenario);
   Rig rig = rig_of(scenario);
-  rig.camera.yaw_offset_rad = 0.04;  // somebody measured it badly
+  rig.camera.yaw_offset_rad = 0.04;  // a wrong value in the rig
   EkfSettings estimated = settings();
   estimated.camera_yaw.estimate = true;
   SimulatedDrive drive(rig, estimated);
@@ -277,7 +278,7 @@ TEST_P(InTheLab, LookAheadIsWhatPredictingWouldGive) {
   const Pose2 expected = now.T_map_body * motion.T_start_end;
   EXPECT_LT((ahead.T_map_body.vector() - expected.vector()).norm(), 1e-12);
   EXPECT_TRUE(ahead.landmarks.empty());
-  EXPECT_EQ(now.T_map_body, drive.last().T_map_body);  // nothing was advanced
+  EXPECT_EQ(now.T_map_body, drive.last().T_map_body);  // look_ahead() has not advanced the filter
   EXPECT_EQ(now.pose_covariance, drive.last().pose_covariance);
 }
 

@@ -1,4 +1,4 @@
-// Several explanations of the first images, side by side.
+// Several hypotheses about the data association of the first images, followed side by side.
 
 #include "slam/planar/ekf_hypotheses.hpp"
 
@@ -19,7 +19,7 @@ struct Followed {
   bool counts_went_back = false, counts_differ_from_map = false;
 };
 
-/// A drive among landmarks of two colours.
+/// Follows a drive among landmarks of two colours.
 Followed drive(std::uint64_t seed) {
   const Scenario scenario = coloured_lab(seed);
   World world = simulate(scenario);

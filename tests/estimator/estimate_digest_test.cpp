@@ -66,7 +66,7 @@ TEST(EstimateDigest, LeavesOutPredictionsAndWhatTheStageCounts) {
   prediction.predicted = true;
   EXPECT_EQ(digest_of({some_estimate(), prediction}), digest_of({some_estimate()}));
   Estimate later = some_estimate();
-  later.sequence = 99;  // counts predictions too
+  later.sequence = 99;  // the sequence number counts predictions too
   EXPECT_EQ(digest_of({later}), digest_of({some_estimate()}));
 }
 

@@ -1,4 +1,4 @@
-// What the rig says of directions and clocks is heeded before any estimator sees a sample.
+// The rig's directions and clocks are applied before an estimator receives a sample.
 
 #include <gtest/gtest.h>
 #include <memory>
@@ -39,9 +39,9 @@ TEST(EstimatorStage, LaggingOdometryIsWaitedFor) {
   stage.add(OdometryReading{at_s(0.0), 0, 0, {}});
   BearingSet set{at_s(0.3), 0, {}};
   stage.add(set);
-  stage.add(OdometryReading{at_s(0.05), 1, 0, {0.05, 0.0, 0.0}});  // of 0.25
+  stage.add(OdometryReading{at_s(0.05), 1, 0, {0.05, 0.0, 0.0}});  // valid at 0.25 s
   EXPECT_FALSE(stage.advance(estimate));
-  stage.add(OdometryReading{at_s(0.15), 2, 0, {0.15, 0.0, 0.0}});  // of 0.35
+  stage.add(OdometryReading{at_s(0.15), 2, 0, {0.15, 0.0, 0.0}});  // valid at 0.35 s
   EXPECT_TRUE(stage.advance(estimate));
   EXPECT_NEAR(estimate.T_odom_body.x_m, 0.1, 1e-9);
 }

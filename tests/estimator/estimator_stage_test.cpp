@@ -27,13 +27,13 @@ class StageTest : public testing::Test {
     stage_.add(set);
   }
   using Milliseconds = std::vector<std::int64_t>;
-  /// Stamps of the steps that are due now.
+  /// The stamps of the steps that are due now.
   Milliseconds due() {
     Milliseconds stamps_ms;
     while (stage_.advance(estimate_)) stamps_ms.push_back(to_us(estimate_.stamp) / 1000);
     return stamps_ms;
   }
-  /// Input counts travel with estimates: makes one more at `t_s`.
+  /// The input counts of one further step at `t_s`, because estimates carry the counts.
   const InputCounts& counts_after(double t_s) {
     read(t_s);
     see(t_s);
@@ -78,7 +78,7 @@ TEST_F(StageTest, StepsComeInTheOrderOfStampsAndAreNumbered) {
   EXPECT_FALSE(estimate_.predicted);
   EXPECT_EQ(due(), Milliseconds{150});
   EXPECT_EQ(estimate_.step, 2u);
-  EXPECT_EQ(estimate_.landmarks.size(), 1u);  // of this step, not of all
+  EXPECT_EQ(estimate_.landmarks.size(), 1u);  // of this step, not of all steps
   read(0.3);
   EXPECT_EQ(due(), Milliseconds{250});
   for (const auto& step : steps_) EXPECT_EQ(step.set.bearings.size(), 1u);
@@ -105,7 +105,7 @@ TEST_F(StageTest, SetInAGapOfOdometryLongerThanTheLimitIsRefused) {
   see(0.75);
   see(1.35);
   see(1.4);
-  read(1.4);  // 1.15 s after the first set, 0.65 s after the second, and who knows which way the robot took
+  read(1.4);  // 1.15 s after the first set and 0.65 s after the second; the robot's path in between is unknown
   EXPECT_EQ(due(), Milliseconds{1400});
   EXPECT_EQ(estimate_.input.bearings_without_odometry, 3u);
   EXPECT_NEAR(steps_.front().motion.T_start_end.x_m, 1.4, 1e-9);  // no motion is lost
@@ -117,7 +117,7 @@ TEST_F(StageTest, SetInALongGapThatTheOdometerDoubtsIsRefusedWhereverItLies) {
   };
   read_until(0.0, 0.2);
   see(0.2);
-  see(0.65);  // within the limit of the reading that follows, but only a straight line leads there
+  see(0.65);  // within the limit before the next reading, but a straight line is only an assumption
   see(0.8);
   read_doubted(0.8);
   see(0.85);
@@ -146,7 +146,7 @@ TEST_F(StageTest, SetIsGivenUpWhenSetsComeLaterThanTheLimitWithoutOdometry) {
   see(0.1);
   see(0.6);
   EXPECT_TRUE(due().empty());
-  see(0.7);  // nothing for more than 0.5 s after 0.1: odometry is out
+  see(0.7);  // no odometry for more than 0.5 s after 0.1 s: the set at 0.1 s is given up
   EXPECT_TRUE(due().empty());
   stand(0.72, 0.0);
   EXPECT_EQ(due(), (Milliseconds{600, 700}));
@@ -161,7 +161,7 @@ TEST_F(StageTest, SetFromBeforeTheFirstReadingIsRefusedHoweverClose) {
   read(1.0);
   read(1.1);
   see(1.05);
-  EXPECT_EQ(due(), Milliseconds{1050});  // a robot that drives was elsewhere before
+  EXPECT_EQ(due(), Milliseconds{1050});  // where the moving robot was before the first reading is unknown
   EXPECT_EQ(estimate_.input.bearings_without_odometry, 3u);
   EXPECT_NEAR(steps_[0].motion.T_start_end.x_m, 0.05, 1e-9);
 }

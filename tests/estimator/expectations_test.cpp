@@ -1,4 +1,4 @@
-// Where the estimator expects to see its map, between prediction and update.
+// The bearings that the estimator expects of its map, between prediction and update.
 
 #include <gtest/gtest.h>
 #include <map>
@@ -9,7 +9,7 @@
 namespace azimuth {
 namespace {
 
-/// How named bearings lay to the gates expected for them on a drive.
+/// The numbers of bearings with identities inside and outside their expected gates.
 struct Gated {
   int inside = 0, outside = 0;
   double gate_sum_rad = 0.0;

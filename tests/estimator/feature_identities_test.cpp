@@ -33,7 +33,7 @@ BearingSet image_of(const std::vector<Feature>& features) {
 class Naming : public testing::Test {
  protected:
   explicit Naming(FeatureValidation validation = FeatureValidation::geometry) : identities_(settings(validation)) {
-    // Nothing is like anything else until a test says so: two strangers give every search its rival.
+    // Two unrelated features give every search a rival, so that nothing resembles anything else until a test says so.
     name({{random_descriptor(draws_), 3.0}, {random_descriptor(draws_), -3.0}});
   }
 
@@ -55,11 +55,11 @@ class Naming : public testing::Test {
   }
   Feature feature(double azimuth_rad) { return {random_descriptor(draws_), azimuth_rad}; }
 
-  /// The filter has it in its map, expected in that direction.
+  /// Adds a landmark to the filter's map, expected at this azimuth.
   void map(Identity identity, double azimuth_rad, double sigma_rad = 0.02) {
     beliefs_.mapped.push_back({identity, azimuth_rad, sigma_rad * sigma_rad});
   }
-  /// The filter remembers a bearing of it from elsewhere.
+  /// Adds an earlier bearing that the filter remembers, from another place.
   void sighted(Identity identity, const Eigen::Vector2d& from, double direction_rad) {
     beliefs_.sighted.push_back({identity, from, direction_rad, kSigmaFeature_rad * kSigmaFeature_rad, 0.0});
   }
@@ -109,7 +109,7 @@ TEST_F(Naming, LooksBetweenTwoLandmarksAreOfTheOneThatCanBeThere) {
   map(names[0], 0.5);
   map(names[1], 2.0);
   EXPECT_EQ(name({{seen_again(one.looks, 8.0, draws_), 0.5}})[0], names[0]);
-  // GIVEN the same two beside each other THEN neither is a rival of the other, and the more alike is taken
+  // GIVEN both landmarks side by side THEN neither is a rival of the other, and the more similar one is chosen
   beliefs_.mapped.back().azimuth_rad = 0.51;
   EXPECT_EQ(name({{seen_again(one.looks, 8.0, draws_), 0.5}})[0], names[0]);
 }
@@ -130,7 +130,7 @@ TEST_F(Naming, SeveralViewsOfOneLandmarkAreNoRivals) {
   const Identity identity = name({one})[0];
   map(identity, 0.5);
   for (int view = 1; view < 5; ++view) {
-    beliefs_.T_map_camera.x_m = view;  // far enough apart for a view of its own
+    beliefs_.T_map_camera.x_m = view;  // far enough apart for a separate view
     ASSERT_EQ(name({again(one, 0.5)})[0], identity) << view;
   }
   EXPECT_EQ(identities_.store().views_of(identity), 5);
@@ -152,7 +152,7 @@ TEST_F(Naming, SightedFeatureMustAgreeWithEveryEarlierBearing) {
   const Feature one = feature(0.5);
   const Identity identity = name({one})[0];
   beliefs_.T_map_camera = {2.0, 0.0, 0.3};
-  // From the origin it was seen to the left; 2 m on it can be anywhere between there and behind.
+  // From the origin the feature was seen on the left. From 2 m farther on, it lies anywhere from the left to behind.
   sighted(identity, {0.0, 0.0}, kPi / 2);
   EXPECT_EQ(name({again(one, wrap(2.5 - 0.3))})[0], identity);
   EXPECT_NE(name({again(one, wrap(1.0 - 0.3))})[0], identity);
@@ -163,14 +163,14 @@ TEST_F(Naming, OneEarlierBearingThatDisagreesIsEnough) {
   const Identity identity = name({one})[0];
   beliefs_.T_map_camera = {2.0, 0.0, 0.0};
   sighted(identity, {0.0, 0.0}, kPi / 2);
-  sighted(identity, {1.9, 0.0}, -1.7);  // to the right, and to the left it cannot have got
+  sighted(identity, {1.9, 0.0}, -1.7);  // from here it was seen on the right, which contradicts the bearing to the left
   EXPECT_NE(name({again(one, 2.5)})[0], identity);
 }
 
 TEST_F(Naming, WhatTheFilterHasGivenUpIsForgotten) {
   const Feature one = feature(0.5);
   const Identity old = name({one})[0];
-  const Identity fresh = name({again(one, 0.5)})[0];  // neither mapped nor sighted any more
+  const Identity fresh = name({again(one, 0.5)})[0];  // the feature is neither mapped nor sighted any more
   EXPECT_GT(fresh, old);
   EXPECT_EQ(identities_.store().views_of(old), 0);
   map(fresh, 0.5);
@@ -181,7 +181,7 @@ TEST_F(Naming, RefusedSightingsTeachNothing) {
   const Feature one = feature(0.5);
   identities_.name(image_of({one}), beliefs_);
   const std::size_t before = identities_.store().views();
-  identities_.refuse(2);  // the third name: two strangers came first
+  identities_.refuse(2);  // the third identity, after those of the two unrelated features
   identities_.learn(path_m_);
   EXPECT_EQ(identities_.store().views(), before);
 }
@@ -202,14 +202,15 @@ TEST_F(Naming, CrowdedImagesCountForLess) {
   const BearingSet& few = identities_.name(image_of({many[0], many[1]}), beliefs_);
   EXPECT_DOUBLE_EQ(few.bearings[0].sigma_rad, kSigmaFeature_rad);
   const BearingSet& crowd = identities_.name(image_of(many), beliefs_);
-  EXPECT_DOUBLE_EQ(crowd.bearings[0].sigma_rad, 2.0 * kSigmaFeature_rad);  // 40 that are worth 10
+  // 40 bearings together carry the information of 10
+  EXPECT_DOUBLE_EQ(crowd.bearings[0].sigma_rad, 2.0 * kSigmaFeature_rad);
 }
 
 class NamingByPatterns : public Naming {
  protected:
   NamingByPatterns() : Naming(FeatureValidation::patterns) {}
 
-  /// A feature with five around it.
+  /// An image of a feature with five neighbours.
   BearingSet surrounded(const Feature& feature, const std::vector<Descriptor>& neighbours) {
     std::vector<Feature> features{feature};
     for (const Descriptor& neighbour : neighbours) features.push_back({neighbour, 1.0});

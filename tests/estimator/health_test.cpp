@@ -1,4 +1,4 @@
-// Health must say in time, and in words, when the pose is not to be relied on; and that it is again.
+// Health must report in time, and in words, when the pose is not reliable and when it is reliable again.
 
 #include <gmock/gmock.h>
 #include <sstream>
@@ -20,8 +20,9 @@ struct Change {
 };
 
 /// Every change of health or reason over a run.
-std::vector<Change> changes(const World& world, const Rig& rig, const EkfSettings& settings) {
-  SimulatedDrive drive(rig, settings);
+std::vector<Change> changes(const World& world, const Rig& rig, const EkfSettings& settings,
+                            const HealthSettings& health = {}) {
+  SimulatedDrive drive(rig, settings, health);
   std::vector<Change> changes;
   drive.on_estimate = [&](const Estimate& estimate) {
     const Change now{estimate.health, estimate.reason};
@@ -32,7 +33,7 @@ std::vector<Change> changes(const World& world, const Rig& rig, const EkfSetting
   return changes;
 }
 
-/// Whether `expected` occur in `all` in this order, others between them allowed.
+/// Expects that `expected` occur in `all` in this order. Other changes may lie in between.
 void expect_in_order(const std::vector<Change>& all, const std::vector<Change>& expected) {
   std::size_t found = 0;
   for (const Change& change : all)
@@ -72,25 +73,26 @@ TEST(HealthOfTheEstimate, FallsFromTrackingToLostInTheDarkAndComesBack) {
   const Scenario scenario = lab(2, 4);
   World world = simulate(scenario);
   change_sets(world, 70.0, 190.0, [](BearingSet& set) { set.bearings.clear(); });
-  EkfSettings settings = delayed();
-  settings.health.lost_sigma_m = 0.8;  // what the lab's good odometry reaches in this time
-  expect_in_order(changes(world, rig_of(scenario), settings), {kStarting,
-                                                               kTracking,
-                                                               {Health::degraded, "no landmark recognised for long"},
-                                                               {Health::lost, "the pose is too uncertain to be used"},
-                                                               kTracking});
+  HealthSettings health;
+  health.lost_sigma_m = 0.8;  // reached in this time with the lab's good odometry
+  expect_in_order(changes(world, rig_of(scenario), delayed(), health),
+                  {kStarting,
+                   kTracking,
+                   {Health::degraded, "no landmark recognised for long"},
+                   {Health::lost, "the pose is too uncertain to be used"},
+                   kTracking});
 }
 
 TEST(HealthOfTheEstimate, AnUncertainPoseIsDegradedEvenWithLandmarksInSight) {
   const Scenario scenario = lab(2, 1);
-  EkfSettings strict = delayed();
-  strict.health.degraded_sigma_m = 1e-3;
-  expect_in_order(changes(simulate(scenario), rig_of(scenario), strict),
+  HealthSettings strict;
+  strict.degraded_sigma_m = 1e-3;
+  expect_in_order(changes(simulate(scenario), rig_of(scenario), delayed(), strict),
                   {kStarting, {Health::degraded, "the pose is uncertain"}});
 }
 
 TEST(HealthOfTheEstimate, BearingsThatContradictTheMapAreReported) {
-  // For ten seconds the camera sees everything in a mirror: no pose explains that.
+  // For ten seconds all bearings are mirrored, which no pose explains.
   const Scenario scenario = lab(3, 2);
   World world = simulate(scenario);
   change_sets(world, 75.0, 85.0, [](BearingSet& set) {

@@ -39,7 +39,7 @@ Health with_sigma(double sigma_m, double map_reach_m, const HealthSettings& sett
 }
 
 TEST(Judgement, AllowsMoreInALargerMapUnlessAKeySaysHowMuch) {
-  // GIVEN a room: as where nobody knows how large it is
+  // GIVEN a room, or a map whose size nobody knows
   for (const double reach_m : {0.0, 10.0, 25.0}) {
     EXPECT_EQ(with_sigma(0.49, reach_m), Health::tracking) << reach_m;
     EXPECT_EQ(with_sigma(0.51, reach_m), Health::degraded) << reach_m;
@@ -49,9 +49,9 @@ TEST(Judgement, AllowsMoreInALargerMapUnlessAKeySaysHowMuch) {
   EXPECT_EQ(with_sigma(0.9, 100.0), Health::tracking);
   EXPECT_EQ(with_sigma(19.0, 100.0), Health::degraded);
   EXPECT_EQ(with_sigma(21.0, 100.0), Health::lost);
-  // AND a map of millimetres
+  // AND a map with a reach of 10 km, as if its positions were in millimetres
   EXPECT_EQ(with_sigma(51.0, 1e4), Health::lost);
-  // AND limits that are said
+  // AND configured limits
   HealthSettings said;
   said.degraded_sigma_m = 0.1;
   said.lost_sigma_m = 1.0;
@@ -104,7 +104,7 @@ TEST(Judgement, CallsForACalibrationOnlyWhenTheLagIsCertain) {
   evidence.lag->sigma_s = 0.005;
   EXPECT_EQ(judge(evidence, {}).health, Health::degraded);
   EXPECT_EQ(judge(evidence, {}).reason, "images and odometry are not of the same time");
-  evidence.lag->mean_s = 0.025;  // certain, and of no account
+  evidence.lag->mean_s = 0.025;  // certain, but too small to matter
   EXPECT_EQ(judge(evidence, {}).health, Health::tracking);
   evidence.lag->mean_s = 0.06;
   HealthSettings tolerant;

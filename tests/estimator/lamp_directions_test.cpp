@@ -1,4 +1,4 @@
-// Directions of a camera whose centre and tilt are other than its rig says.
+// Directions of a camera whose image centre and tilt differ from its rig.
 
 #include "slam/estimator/lamp_directions.hpp"
 
@@ -32,7 +32,7 @@ Bearing bearing_at(double azimuth_rad, double zenith_rad) {
           .sigma_elevation_rad = 0.002};
 }
 
-/// Where what LampSeen says is, as a unit vector.
+/// The unit vector of the direction in `seen`.
 Eigen::Vector3d towards(const LampSeen& seen) {
   const Eigen::Vector2d m = seen.direction.offset_per_metre();
   return Eigen::Vector3d(m.x(), m.y(), 1.0).normalized();
@@ -60,7 +60,7 @@ TEST(LampDirections, MoveByTheCamerasErrorsAsTheySay) {
   }
 }
 
-/// A camera that leans by what its rig does not say is one whose rig says it.
+/// Correcting an estimated tilt error gives the same directions as a rig with the right tilt.
 TEST(LampDirections, OfATiltFoundAreThoseOfATiltTold) {
   const CameraTilt told{0.01, 0.02}, found{0.015, -0.01};
   const Rig knows = ceiling_rig({told.roll_rad + found.roll_rad, told.pitch_rad + found.pitch_rad});

@@ -37,7 +37,7 @@ TEST(MountedEstimator, AMotionTakesThePointFromWhereItWasToWhereItIs) {
   EXPECT_TRUE(end.vector().isApprox(point_pose(kMount_m, start * motion.T_start_end).vector(), 1e-12));
 }
 
-// Its derivatives are those of the body's motion, seen from the point.
+// Noise and derivatives of the mounting point's motion are those of the body's motion, transformed to the point.
 TEST(MountedEstimator, NoiseAndDerivativesOfAMotionAreThePoints) {
   Motion motion;
   motion.T_start_end = {0.4, 0.1, 0.8};
@@ -78,7 +78,7 @@ Bearing towards(const Eigen::Vector2d& p_world_m, const Pose2& T_world_body) {
   return bearing;
 }
 
-/// A drive along a circle, with named landmarks round it and without any noise.
+/// A drive along a circle among named landmarks, with exact bearings.
 class Circle : public testing::Test {
  protected:
   Circle() {

@@ -1,4 +1,4 @@
-// What odometry's noise amounts to over a drive must not depend on how the odometer reports it.
+// The noise of odometry over a drive must not depend on the rate and the resolution of the odometer.
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -52,7 +52,7 @@ TEST(OdometryNoise, IsWhatTheModelChargesForAStraightDrive) {
   const double length_m = 10.0;
   EXPECT_NEAR(motion.covariance(2, 2), rig.lambda_drift_rad2_per_m * length_m, 1e-9);
   EXPECT_NEAR(motion.covariance(0, 0), rig.lambda_distance_m * length_m, 1e-9);
-  // Sideways: slip, and the integral of the heading's random walk.
+  // Across the path: slip, and the integral of the heading's random walk.
   const double slip_m2 = rig.sigma_lateral_m_per_sqrt_m * rig.sigma_lateral_m_per_sqrt_m * length_m;
   const double drift_m2 = rig.lambda_drift_rad2_per_m * std::pow(length_m, 3) / 3.0;
   EXPECT_NEAR(motion.covariance(1, 1) / (slip_m2 + drift_m2), 1.0, 0.01);
@@ -68,7 +68,7 @@ std::vector<OdometryReading> quantised(std::vector<OdometryReading> odometry, do
   return odometry;
 }
 
-/// Ten metres on a slant, so that both coordinates are rounded all the time.
+/// Ten metres in an oblique direction, so that both coordinates are rounded all the time.
 std::vector<OdometryReading> slanting_drive(double rate_hz, double speed_m_per_s) {
   std::vector<OdometryReading> odometry;
   const double heading_rad = 0.3, pitch_m = speed_m_per_s / rate_hz;
@@ -95,10 +95,10 @@ TEST(OdometryNoise, ResolutionOfAMillimetreDoesNotInflateTheHeading) {
 }
 
 TEST(OdometryNoise, FoldingAtCapacityDoesNotChangeTheMotion) {
-  // Every reading closes a segment, so the motion is the sum over readings whatever the storage did in between.
+  // Every reading closes a segment, so the motion is the sum over the readings, regardless of the folding in storage.
   std::vector<OdometryReading> odometry;
   Pose2 T_odom_body;
-  const Control control{0.03, 0.0015, 0.0015};  // an arc, as it is charged
+  const Control control{0.03, 0.0015, 0.0015};  // an arc with the turn split evenly, as the noise model assumes
   for (std::size_t i = 0; i < 3 * OdometryTrack::kCapacity; ++i) {
     odometry.push_back({stamp_from_us(static_cast<std::int64_t>(i) * 10000), i, 0, T_odom_body});
     T_odom_body = move(T_odom_body, control);

@@ -10,7 +10,7 @@
 namespace azimuth {
 namespace {
 
-/// A drive along an arc at 0.3 m/s and 0.2 rad/s, `rate_hz` readings a second.
+/// A drive along an arc at `speed_m_s` and 0.2 rad/s, with `rate_hz` readings per second.
 std::vector<OdometryReading> arc(double seconds, double rate_hz = 10.0, double speed_m_s = 0.3) {
   std::vector<OdometryReading> readings;
   Pose2 pose;
@@ -24,7 +24,7 @@ std::vector<OdometryReading> arc(double seconds, double rate_hz = 10.0, double s
   return readings;
 }
 
-/// From reading `index` on it counts from zero again.
+/// Makes the odometer count from zero again from reading `index` on.
 void begin_anew(std::vector<OdometryReading>& readings, std::size_t index) {
   const Pose2 T_begin_odom = inverse(readings[index].T_odom_body);
   for (std::size_t i = index; i < readings.size(); ++i)
@@ -52,7 +52,7 @@ TEST(OdometrySteps, WithStampsOfArrivalAreAllOfWheels) {
 }
 
 TEST(OdometrySteps, BackToWhereADriveBeganAreOfWheels) {
-  auto readings = arc(2.0 * kPi / 0.2 + 5.0);  // a full circle and more
+  auto readings = arc(2.0 * kPi / 0.2 + 5.0);  // more than a full circle
   EXPECT_TRUE(part_at_jumps(readings).empty());
 }
 
@@ -99,7 +99,8 @@ TEST(OdometrySteps, AcrossTheRoomAreOfNoWheel) {
 TEST(OdometrySteps, ThatJumpAllTheTimeAreLeftAsTheyAre) {
   auto readings = arc(40.0);
   const auto before = readings;
-  for (std::size_t i = 0; i < readings.size(); i += 12) readings[i].T_odom_body.x_m += 2.0;  // a second sender
+  // readings of a second sender in between
+  for (std::size_t i = 0; i < readings.size(); i += 12) readings[i].T_odom_body.x_m += 2.0;
   EXPECT_TRUE(part_at_jumps(readings).empty());
   OdometrySteps steps;
   for (const OdometryReading& reading : readings) {

@@ -25,7 +25,7 @@ void expect_near(const Pose2& pose, const Pose2& expected, double tolerance) {
   EXPECT_NEAR(wrap(pose.heading_rad - expected.heading_rad), 0.0, tolerance);
 }
 
-/// A lap whose odometer errs only by what the rig knows.
+/// A lap whose odometer has only the systematic errors that the rig describes.
 Scenario miscalibrated_lap() {
   Scenario scenario = lab(1, 1);
   scenario.odometer = {0.0, 0.0, 0.0, 0.0, 0.965, 0.945, -0.05, 0.2};
@@ -77,7 +77,7 @@ TEST(OdometryTrack, CalibrationScalesAReverseDriveToo) {
   track.add(reading(1.0, {-1.0, 0.0, 0.0}));
   const OdometryTrack::Step step = track.advance_to(at_s(1.0));
   EXPECT_NEAR(step.T_odom_body.position().norm(), 0.9, 1e-12);
-  EXPECT_NEAR(step.T_odom_body.heading_rad, -0.09, 1e-12);  // driven backwards, the drift turns backwards
+  EXPECT_NEAR(step.T_odom_body.heading_rad, -0.09, 1e-12);  // in reverse, the drift turns the other way
   EXPECT_NEAR(step.motion.path_m, 0.9, 1e-12);
 }
 
@@ -106,7 +106,7 @@ TEST(OdometryTrack, AClockThatDriftsMakesTheLagGrowFromTheFirstReadingOn) {
   EXPECT_EQ(track.newest(), at_s(110.3));
 }
 
-/// The motions between instants that are all `lag_s` earlier than asked.
+/// The motions between instants that are all `lag_s` earlier than the regular ones.
 std::vector<Motion> motions_earlier_by(double lag_s, const World& world) {
   OdometryTrack track(exact_rig());
   for (const OdometryReading& sample : world.odometry) track.add(sample);
@@ -128,11 +128,12 @@ TEST(OdometryTrack, DerivativesByALagOfTheInstants) {
   };
   int compared = 0;
   double largest = 0.0;
-  for (std::size_t i = 1; i < motions.size(); ++i) {  // the first begins where odometry does, whatever the lag
+  for (std::size_t i = 1; i < motions.size(); ++i) {  // the first motion always starts at the first reading
     const Eigen::Vector3d backward = slope(before[i], motions[i], kStep_s),
                           forward = slope(motions[i], after[i], kStep_s);
-    if ((backward - forward).norm() > 0.01) continue;  // it turns from one way to another just then
-    EXPECT_LT((motions[i].by_lag - 0.5 * (backward + forward)).norm(), 0.02) << i;  // velocities of 10 ms
+    if ((backward - forward).norm() > 0.01) continue;  // the turn rate changes at this instant
+    // velocities are differences over 10 ms
+    EXPECT_LT((motions[i].by_lag - 0.5 * (backward + forward)).norm(), 0.02) << i;
     largest = std::max(largest, forward.norm());
     ++compared;
   }
@@ -166,7 +167,7 @@ TEST(OdometryTrack, InterpolatesBetweenReadings) {
   track.add(reading(0.0, {0.0, 0.0, 3.1}));
   track.add(reading(1.0, {1.0, 2.0, -3.1}));
   const OdometryTrack::Step step = track.advance_to(at_s(0.25));
-  // The first reading is the origin of the track: its heading is 3.1 off the odometer's.
+  // The first reading is the origin of the track, and its heading of 3.1 rad is the track's zero.
   const Pose2 T_first_end = inverse(Pose2{0.0, 0.0, 3.1}) * Pose2{1.0, 2.0, -3.1};
   expect_near(step.T_odom_body, interpolate({}, T_first_end, 0.25), 1e-12);
   expect_near(step.motion.T_start_end, step.T_odom_body, 1e-12);
@@ -180,7 +181,7 @@ TEST(OdometryTrack, StepsJoinWithoutLossWhereverTheyAreCut) {
   Pose2 T_start_now;
   double path_m = 0.0, t_s = 0.0;
   while (at_s(t_s) < track.newest()) {
-    t_s += draws.uniform(0.0, 1.5);  // several readings at once, or several steps between two readings
+    t_s += draws.uniform(0.0, 1.5);  // several readings in one step, or several steps between two readings
     const OdometryTrack::Step step = track.advance_to(at_s(t_s));
     T_start_now = T_start_now * step.motion.T_start_end;
     path_m += step.motion.path_m;
@@ -194,7 +195,7 @@ TEST(OdometryTrack, RestartedOdometerGoesOnWithoutAJump) {
   OdometryTrack track(exact_rig());
   track.add(reading(0.0, {}, 1));
   track.add(reading(1.0, {1.0, 0.0, kPi / 2}, 1));
-  track.add(reading(2.0, {50.0, 50.0, -1.0}, 2));  // elsewhere: the pose stays, what happened between is not known
+  track.add(reading(2.0, {50.0, 50.0, -1.0}, 2));  // a new origin: the pose stays, and the motion in between is unknown
   expect_near(track.advance_to(at_s(2.0)).T_odom_body, {1.0, 0.0, kPi / 2}, 1e-12);
   track.add(reading(3.0, Pose2{50.0, 50.0, -1.0} * Pose2{2.0, 0.0, 0.0}, 2));
   const OdometryTrack::Step step = track.advance_to(at_s(3.0));
@@ -212,7 +213,7 @@ TEST(OdometryTrack, InstantsOutsideTheReadingsAreClamped) {
   EXPECT_FALSE(early.motion.moved());
   EXPECT_NEAR(track.advance_to(at_s(9.0)).T_odom_body.x_m, 1.0, 1e-12);
   EXPECT_FALSE(track.advance_to(at_s(9.5)).motion.moved());
-  EXPECT_FALSE(track.advance_to(at_s(1.5)).motion.moved());  // already passed
+  EXPECT_FALSE(track.advance_to(at_s(1.5)).motion.moved());  // this instant has already passed
   EXPECT_EQ(track.oldest(), at_s(2.0));
 }
 
@@ -226,7 +227,7 @@ OdometryReading doubtful(double t_s, const Pose2& T_odom_body, double sigma_gap_
 TEST(OdometryTrack, WhatTheOdometerDoubtsIsChargedOnce) {
   OdometryTrack track(exact_rig());
   track.add(reading(1.0, {}));
-  track.add(doubtful(2.0, {}, 0.3, 0.2));  // it may have moved, although the pose says that it did not
+  track.add(doubtful(2.0, {}, 0.3, 0.2));  // the odometer may have missed a motion
   track.add(reading(3.0, {1.0, 0.0, 0.0}));
   const Eigen::Vector3d expected(0.09, 0.09, 0.04);
   EXPECT_NEAR((track.peek().motion.covariance.diagonal() - expected).tail<1>()(0), 0.0, 1e-15);

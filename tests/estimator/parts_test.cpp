@@ -1,11 +1,11 @@
-// What estimators are made of: the book of landmarks, how one begins on a map, what health is judged by.
+// Components of estimators: the book of landmarks, the decision how to start on a map, and the evidence for health.
 
 #include <gtest/gtest.h>
 #include <vector>
 
-#include "slam/estimator/hearing.hpp"
 #include "slam/estimator/landmark_book.hpp"
-#include "slam/estimator/map_beginning.hpp"
+#include "slam/estimator/map_start_decision.hpp"
+#include "slam/estimator/recognition_history.hpp"
 #include "slam/lost/lost_robot.hpp"
 
 namespace azimuth {
@@ -44,10 +44,10 @@ struct Begun {
   }
 };
 
-TEST(MapBeginning, BeginsAtOnceUnlessTheOdometryIsToSay) {
+TEST(MapStartDecision, BeginsAtOnceUnlessTheOdometryIsToSay) {
   const MapSnapshot map;
   Begun begun;
-  MapBeginning beginning;
+  MapStartDecision beginning;
   beginning.begin({.map = &map, .mode = MapMode::localise, .pose_known = true}, begun);
   EXPECT_EQ(begun.times, 1);
   EXPECT_TRUE(begun.known);
@@ -56,11 +56,11 @@ TEST(MapBeginning, BeginsAtOnceUnlessTheOdometryIsToSay) {
   EXPECT_EQ(begun.times, 1);
 }
 
-TEST(MapBeginning, WaitsForTheOdometryOnce) {
+TEST(MapStartDecision, WaitsForTheOdometryOnce) {
   const MapSnapshot map;
   for (const bool goes_on : {true, false}) {
     Begun begun;
-    MapBeginning beginning;
+    MapStartDecision beginning;
     beginning.begin({.map = &map, .asks_odometry = true}, begun);
     EXPECT_EQ(begun.times, 0);
     EXPECT_EQ(beginning.odometry_begins(goes_on, begun), goes_on);
@@ -70,19 +70,19 @@ TEST(MapBeginning, WaitsForTheOdometryOnce) {
   }
 }
 
-TEST(Hearing, AgreementEndsWhatContradictedBefore) {
-  Hearing hearing;
+TEST(RecognitionHistory, AgreementEndsWhatContradictedBefore) {
+  RecognitionHistory hearing;
   hearing.path_m = 3.0;
   hearing.contradictions = 4;
-  hearing.deaf_streaks = 2;
+  hearing.inflations = 2;
   Evidence evidence = hearing.evidence(Eigen::Matrix3d::Zero(), 5.0);
   EXPECT_EQ(evidence.unrecognised_m, 5.0);
-  EXPECT_EQ(evidence.deaf_sightings, 4);
-  EXPECT_EQ(evidence.deaf_streaks, 2);
+  EXPECT_EQ(evidence.contradictions, 4);
+  EXPECT_EQ(evidence.inflations, 2);
   hearing.agreed();
   evidence = hearing.evidence(Eigen::Matrix3d::Zero(), 5.0);
   EXPECT_EQ(evidence.unrecognised_m, 2.0);
-  EXPECT_EQ(evidence.deaf_sightings + evidence.deaf_streaks, 0);
+  EXPECT_EQ(evidence.contradictions + evidence.inflations, 0);
 }
 
 TEST(LostRobot, SaysSoUntilItIsFound) {

@@ -1,4 +1,4 @@
-// What an image says of whether the robot is where it is thought to be.
+// Evidence of an image for or against the estimated pose of the robot.
 
 #include "slam/planar/planar_search.hpp"
 
@@ -15,10 +15,10 @@ namespace {
 constexpr int kLandmarks = 10;
 constexpr double kRange_m = 5.0;
 
-/// A robot at the origin of a map of things that are told apart by their colour alone, all seen a moment ago.
+/// A robot at the origin of a map whose landmarks differ only by colour, all seen a moment ago.
 class SeenAmong : public ::testing::Test {
  protected:
-  /// `azimuths_rad`: of the landmarks, of colours in turn.
+  /// Places landmarks at the azimuths, with colours in turn.
   void place(const std::vector<double>& azimuths_rad) {
     MapSnapshot map;
     for (const double azimuth_rad : azimuths_rad)
@@ -59,7 +59,7 @@ class SeenAmong : public ::testing::Test {
   }
 
   Rig rig_ = colour_rig();
-  PlanarSearch search_{rig_, settings()};
+  PlanarSearch search_{rig_, settings(), RelocalisationSettings{}};
   BearingEkf ekf_{BearingEkfSettings{}};
   std::vector<PlanarLandmark> landmarks_;
 };
@@ -113,7 +113,7 @@ TEST_F(SeenAmong, WhatWentOutOfSightBeforeAnyDoubtIsNotMissed) {
   for (std::size_t i = 0; i < kLandmarks; ++i) landmarks_[i].last_used = at(i < 3 ? 2 : kImages);
   for (int image = 1; image <= kImages; ++image) agreement({{.azimuth_rad = 0.3, .kind = kind_of(0)}}, at(image));
   EXPECT_EQ(agreement({{.azimuth_rad = 0.3, .kind = kind_of(0)}}, at(kImages + 1)).expected, kLandmarks - 3);
-  // A doubt lasts as long as it takes: what was seen before is due until it is settled.
+  // A doubt lasts until it is settled: the landmarks seen before the doubt remain expected.
   for (int image = 1; image <= kImages; ++image)
     agreement({{.azimuth_rad = 0.3, .kind = kind_of(0)}}, at(kImages + image), true);
   EXPECT_EQ(agreement({{.azimuth_rad = 0.3, .kind = kind_of(0)}}, at(3 * kImages), true).expected, kLandmarks - 3);

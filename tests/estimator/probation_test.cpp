@@ -1,5 +1,5 @@
-// Landmarks that images may show by mistake: the EKF goes by them at once, but others hear of them only when they were
-// seen often enough.
+// Landmarks on probation. Images may show clutter, so the EKF uses a new landmark at once, but publishes it only after
+// enough sightings.
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace azimuth {
 namespace {
 
-constexpr int kSightings = 8;  // by rig, in images
+constexpr int kSightings = 8;  // default number of sightings that ends the probation of landmarks from images
 constexpr Kind kRed = 1;
 
 Rig rig_seeing(FrontEnd front_end, bool names = false) {
@@ -35,7 +35,7 @@ Motion half_metre() {
   return motion;
 }
 
-/// A robot that drives half a metre a second along x, past something red, and is asked after each image.
+/// A robot that drives along x past a red landmark, half a metre and one image per second.
 class Passing {
  public:
   explicit Passing(const Rig& rig, const EkfSettings& settings = {}, const MapStart& start = {})
@@ -109,7 +109,7 @@ TEST(Probation, IsNeverHeardOfWhenTheThingIsNotSeenAgain) {
 
 TEST(Probation, KeepsALandmarkOutOfASavedMap) {
   EkfSettings settings;
-  settings.probation.confirm_after_sightings = 12;  // it is a point before
+  settings.probation.confirm_after_sightings = 12;  // it is a point before that
   Passing robot(rig_seeing(FrontEnd::colour), settings);
   MapSnapshot map;
   for (int i = 1; i < 12; ++i) robot.sees();
@@ -120,7 +120,7 @@ TEST(Probation, KeepsALandmarkOutOfASavedMap) {
   EXPECT_EQ(map.landmarks.size(), 1u);
 }
 
-/// A map of before there was probation may hold what was seen less often.
+/// The sightings in a saved map do not count: a map from a version without probation may hold landmarks with few.
 TEST(Probation, IsNotForTheLandmarksOfASavedMap) {
   Passing first(rig_seeing(FrontEnd::colour));
   MapSnapshot map;

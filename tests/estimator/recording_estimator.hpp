@@ -1,5 +1,5 @@
 #pragma once
-// An estimator that only writes down what it is asked to do, for tests of the stage around it.
+// An estimator that only records the calls it receives, for tests of the stage around it.
 
 #include <vector>
 

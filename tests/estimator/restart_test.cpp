@@ -1,5 +1,5 @@
-// An estimator that ends in the middle of a drive, and the next one, which starts from the map saved some time before
-// while the odometer has counted on.
+// An estimator ends in the middle of a drive. The next one starts from the map that was saved some time before, while
+// the odometer has counted on.
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -17,14 +17,14 @@
 namespace azimuth {
 namespace {
 
-/// A drive that is saved after `kSaved`, ends at `kEnd`, and goes on with another estimator from `kStart`.
+/// The map is saved at `kSaved`, the first estimator ends at `kEnd`, and the next one starts at `kStart`.
 const Stamp kSaved = at_s(60), kEnd = at_s(85), kStart = at_s(88);
 
 class RestartTest : public testing::Test {
  protected:
   explicit RestartTest(std::uint64_t seed = 1) : world_(simulate(lab(seed, 2))), rig_(rig_of(lab(seed, 2))) {}
 
-  /// What comes from `begin` until before `end`, bearings before the odometry that they wait for.
+  /// Feeds the samples from `begin` until before `end`. Bearings come before the odometry that they wait for.
   void feed(EstimatorStage& stage, Stamp begin, Stamp end) {
     auto set = std::ranges::lower_bound(world_.bearings, begin, {}, &BearingSet::stamp);
     for (const OdometryReading& reading : world_.odometry) {
@@ -39,7 +39,7 @@ class RestartTest : public testing::Test {
     }
   }
 
-  /// Drives up to `kEnd`. What it left is in `map_` and `since_`.
+  /// Drives up to `kEnd` and leaves the results in `map_` and `since_`.
   void drive() {
     EstimatorStage stage(std::make_unique<EkfEstimator>(rig_, EkfSettings{}), rig_, StageSettings{});
     feed(stage, Stamp::min(), kSaved);
@@ -59,7 +59,7 @@ class RestartTest : public testing::Test {
                                             StageSettings{}, since_);
   }
 
-  /// The pose that is published first: of the first reading, without a bearing.
+  /// The first published pose, a prediction from the first reading without any bearing.
   Estimate first_look(EstimatorStage& stage) {
     const auto first = std::ranges::lower_bound(world_.odometry, kStart, {}, &OdometryReading::stamp);
     EXPECT_TRUE(stage.add(changed_(*first)));
@@ -118,8 +118,8 @@ TEST(Restarts, AreHonestAboutWhereTheyBegin) {
   }
   fmt::print("{} restarts: first pose: ANEES {:.2f}, worst {:.2f}, off by {:.3f} m at worst; after 30 s: {:.2f}\n",
              kSeeds, first, worst, worst_m, last);
-  // Of 20 draws with 3 degrees of freedom the mean lies within 1.97 to 4.25 (95 %); and what is too vague by half hurts
-  // nobody.
+  // The mean over 20 draws with 3 degrees of freedom lies within 1.97 to 4.25 (95 %). The lower limit is relaxed,
+  // because a pessimistic covariance is harmless.
   EXPECT_GE(first, 1.0);
   EXPECT_LE(first, 4.25);
   EXPECT_LE(worst, 14.16);  // three sigma
@@ -140,7 +140,7 @@ TEST_F(RestartTest, KnowsThePoseWithTheFirstReading) {
   EXPECT_GT(again.motion.path_m, since_->motion.path_m);
 }
 
-/// Landmarks that nothing tells apart: the odometry alone knows where on their map the robot is.
+/// Without identities, only odometry tells where on the map the robot is.
 class NamelessRestart : public RestartTest {
  protected:
   NamelessRestart() {
@@ -160,7 +160,7 @@ TEST_F(NamelessRestart, GoesOnWhereTheOdometryLeads) {
   EXPECT_TRUE(stage->odometry_goes_on());
 }
 
-/// A search would find a wrong place.
+/// Relocalisation among nameless landmarks would find a wrong pose.
 TEST_F(NamelessRestart, BeginsFromNothingWhereTheOdometryDoesNotGoOn) {
   drive();
   ASSERT_TRUE(since_);
@@ -175,7 +175,7 @@ TEST_F(NamelessRestart, BeginsFromNothingWhereTheOdometryDoesNotGoOn) {
   EXPECT_EQ(stage->odometry_goes_on(), false);
 }
 
-/// Restarted again and again before there is much of a map, the robot having left behind what there is.
+/// Restarts the estimator again and again while the map is small and the robot drives away from it.
 class YoungRestart : public RestartTest {
  public:
   explicit YoungRestart(std::uint64_t seed) : RestartTest(seed) {}
@@ -192,7 +192,7 @@ class YoungRestart : public RestartTest {
       }
       feed(*stage, until, until + std::chrono::seconds(1));
       since_.emplace();
-      if (!stage->since_map(*since_)) return;  // too vague by now
+      if (!stage->since_map(*since_)) return;  // the odometry since the map is too uncertain
       from = until + std::chrono::seconds(2);
       until = from + std::chrono::seconds(2);
       stage = restarted();

@@ -16,12 +16,12 @@ namespace {
 
 constexpr Duration kWaitLimit{500'000};
 
-/// How odometry is written down by somebody who means something else.
+/// The factors by which odometry is wrong when it is recorded in other units.
 struct Mistake {
   double metre = 1.0, radian = 1.0, second = 1.0;
 };
 
-/// A robot that drives curves at 0.4 m/s and up to 0.5 rad/s, stops and turns on the spot.
+/// The pose of a robot that drives curves at 0.4 m/s and up to 0.5 rad/s, stops and turns on the spot.
 Pose2 driven(double t_s) {
   Pose2 pose;
   constexpr double kStep_s = 0.01;
@@ -57,7 +57,7 @@ TEST(SampleWatch, SaysWhatTheEstimatorFoundOfTheRig) {
   EXPECT_EQ(with_finding({.bearing_noise = 0.4, .odometry_noise = 1.4}), SampleTrouble::none);
   EXPECT_EQ(with_finding({.bearing_noise = 1.6}), SampleTrouble::bearings_scatter);
   EXPECT_EQ(with_finding({.odometry_noise = 1.6}), SampleTrouble::odometry_scatters);
-  // A value that is off makes all else seem noisy, too.
+  // A wrong rig constant makes the bearings seem noisy, too.
   RigFinding askew{.bearing_noise = 1.6};
   askew.yaw_offset_rad = RigFinding::Value{0.08, 0.002};
   EXPECT_EQ(with_finding(askew), SampleTrouble::rig_contradicted);
@@ -82,7 +82,7 @@ TEST(SampleWatch, KnowsStepsThatNoWheelsMake) {
   SampleWatch watch(Rig{}, kWaitLimit);
   for (int i = 0; i < 300; ++i) {
     Pose2 pose = driven(0.1 * i);
-    pose.x_m -= 0.7 * (i / 15);  // a wheel's angle that wraps, taken as it is
+    pose.x_m -= 0.7 * (i / 15);  // the wrap of a wheel's angle, without correction
     watch.add(OdometryReading{.stamp = at_s(0.1 * i), .sequence = static_cast<std::uint64_t>(i), .T_odom_body = pose});
   }
   EXPECT_EQ(watch.trouble(), SampleTrouble::odometry_jumps);
@@ -125,7 +125,7 @@ TEST(SampleWatch, NoticesStampsThatRunTooSlowly) {
   EXPECT_EQ(after_driving({.second = 0.001}), SampleTrouble::none) << "30 ms are less than a window";
   EXPECT_EQ(after_driving({.second = 0.1}), SampleTrouble::none) << "4 m/s and 5 rad/s: why not";
   SampleWatch watch({}, kWaitLimit);
-  for (int i = 0; i < 20'000; ++i) {  // half an hour in 2 s
+  for (int i = 0; i < 20'000; ++i) {  // half an hour compressed into 2 s
     const double t_s = 0.1 * i;
     watch.add({.stamp = at_s(0.001 * t_s * 1.0),
                .sequence = static_cast<std::uint64_t>(i),
@@ -135,7 +135,8 @@ TEST(SampleWatch, NoticesStampsThatRunTooSlowly) {
   EXPECT_EQ(watch.trouble(), SampleTrouble::odometry_too_quick);
 }
 
-/// It drives a long way straight on while its heading turns: not on wheels that only roll, but nobody's degrees either.
+/// The robot drives straight on for long while its heading turns. Wheels that only roll cannot do this, but the
+/// headings are not in degrees either.
 TEST(SampleWatch, LetsARobotDriveSideways) {
   SampleWatch watch({}, kWaitLimit);
   for (int i = 0; i < 2000; ++i)
@@ -148,7 +149,7 @@ TEST(SampleWatch, LetsARobotDriveSideways) {
 TEST(SampleWatch, LetsStampsJitterAndAnOdometerRestart) {
   SampleWatch watch({}, kWaitLimit);
   for (int i = 0; i < 3000; ++i) {
-    const double pair_s = 0.1 * (i / 2);  // two at a time, a microsecond apart
+    const double pair_s = 0.1 * (i / 2);  // pairs of readings, a microsecond apart
     watch.add({.stamp = at_s(pair_s + 1e-6 * (i % 2)),
                .sequence = static_cast<std::uint64_t>(i),
                .origin = static_cast<std::uint32_t>(i / 100),
@@ -199,7 +200,7 @@ TEST(SampleWatch, NoticesImagesOfNoUse) {
   EXPECT_EQ(watch.trouble(), SampleTrouble::none) << "one is enough to know that the camera works";
 }
 
-/// What a stage that no set becomes a step of says.
+/// The finding of a stage when no bearing set becomes a step.
 class StageOfNoStep : public testing::Test {
  protected:
   SampleFinding after(double odometry_from_s, double odometry_step_s, int readings, double sets_from_s, int sets) {
@@ -259,7 +260,7 @@ TEST(EstimatorStage, SaysWhyNoLandmarkIsMapped) {
   EXPECT_EQ(estimate.reason, "bearings carry no identities, which the rig promises");
 }
 
-/// One image of a robot that stands, with these azimuths and names, as the estimator is given it.
+/// The identities that the estimator receives for an image of a standing robot with these azimuths and identities.
 std::vector<Identity> names_used(const Rig& rig, const std::vector<std::pair<double, Identity>>& seen,
                                  std::uint64_t& rejected) {
   std::vector<RecordingEstimator::Step> steps;
@@ -289,12 +290,12 @@ TEST(EstimatorStage, DoubtsANameThatOneImageHasSeveralTimes) {
   rig.camera.sigma_bearing_rad = 0.02;
   constexpr Identity kNone = kUnknownIdentity;
   std::uint64_t rejected = 0;
-  // WHEN things in three directions are called 5, and one in two directions that are the same but for noise is called 7
+  // WHEN bearings in three directions carry the identity 5, and two bearings in one direction, up to noise, carry 7
   const auto names = names_used(
       rig, {{1.0, 5}, {0.0, 7}, {-2.0, 5}, {0.5, 6}, {0.03, 7}, {2.5, 5}, {1.2, kNone}, {1.3, kNone}}, rejected);
-  // THEN 5 is believed of none, 7 once, and 6; nothing else is touched
+  // THEN no bearing keeps 5, one keeps 7, and all other bearings are unchanged
   EXPECT_EQ(names, (std::vector<Identity>{kNone, 7, kNone, 6, kNone, kNone, kNone, kNone}));
-  // AND what was refused is counted, in both images
+  // AND the removed identities are counted as rejected, in both images
   EXPECT_EQ(rejected, 2U * 4U);
 }
 

@@ -1,4 +1,4 @@
-// EkfEstimator: maps that outlive it.
+// EkfEstimator: maps that are saved and loaded again.
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace azimuth {
 namespace {
 
-/// The samples of `world` from `stamp` of one of its sets on; that set shows nothing, since it has been used.
+/// The samples of `world` from `stamp`, the stamp of a set, on. That set is emptied, because it has already been used.
 World after(const World& world, Stamp stamp) {
   World rest = world;
   std::erase_if(rest.bearings, [&](const BearingSet& set) { return set.stamp < stamp; });
@@ -21,7 +21,7 @@ World after(const World& world, Stamp stamp) {
   return rest;
 }
 
-/// Two laps of the lab, and the map after the first.
+/// Two laps of the lab, and the map saved after the first lap.
 class SavedMap : public testing::TestWithParam<bool> {
  protected:
   SavedMap() : scenario_(two_laps(GetParam())), world_(simulate(scenario_)), rig_(rig_of(scenario_)) {
@@ -37,7 +37,7 @@ class SavedMap : public testing::TestWithParam<bool> {
     return scenario;
   }
 
-  /// Where nothing tells landmarks apart it is not known to be.
+  /// Without identities the estimator cannot confirm that the pose is right.
   static Health fine() { return GetParam() ? Health::tracking : Health::degraded; }
 
   SimulatedDrive start(MapMode mode, bool pose_known, double sigma_m = 0.1) const {
@@ -75,11 +75,11 @@ TEST_P(SavedMap, IsHandedOverWithoutAllocatingOnceItsStorageHasGrown) {
 }
 
 TEST_P(SavedMap, GoesOnAsIfNothingHadHappened) {
-  // WHEN one robot drives its second lap with the map and the pose it had saved, and another was never stopped
+  // WHEN one robot drives its second lap with its saved map and pose, and another one without any restart
   SimulatedDrive uninterrupted(rig_, settings_), restarted = start(MapMode::extend, true, 0.0);
   uninterrupted.run(world_);
   restarted.run(rest_);
-  // THEN they agree: all that was lost are bearings of what was no point yet, which names have none of by then
+  // THEN both agree. Only the bearings of landmarks that were no points yet are lost, and with names there are none.
   const Pose2 apart = inverse(uninterrupted.last().T_map_body) * restarted.last().T_map_body;
   EXPECT_LT(apart.position().norm(), GetParam() ? 0.003 : 0.05);
   EXPECT_LT(std::abs(apart.heading_rad), GetParam() ? 0.001 : 0.02);
@@ -126,7 +126,7 @@ class SavedMapWithNames : public SavedMap {};
 
 TEST_P(SavedMapWithNames, ShowsARobotThatDoesNotKnowWhereItIs) {
   for (const MapMode mode : {MapMode::localise, MapMode::extend}) {
-    // GIVEN a robot that knows a map but not its place, and that was carried far from where it had stopped
+    // GIVEN a robot that knows a map but not its pose, and that was carried far away
     map_.T_map_body = {-30.0, 20.0, 2.0};
     SimulatedDrive drive = start(mode, false);
     std::optional<Stamp> found;
@@ -136,9 +136,9 @@ TEST_P(SavedMapWithNames, ShowsARobotThatDoesNotKnowWhereItIs) {
       if (found) worst_m = std::max(worst_m, position_error_m(world_, estimate));
       EXPECT_TRUE(found || estimate.landmarks.size() == map_.landmarks.size());
     };
-    // WHEN it looks round
+    // WHEN the robot drives and observes
     drive.run(rest_);
-    // THEN it is found within seconds, where it is
+    // THEN it is relocalised within seconds, at its true pose
     ASSERT_TRUE(found);
     EXPECT_LT(to_seconds(*found - map_.stamp), 5.0);
     EXPECT_LT(worst_m, 0.5);
@@ -147,7 +147,7 @@ TEST_P(SavedMapWithNames, ShowsARobotThatDoesNotKnowWhereItIs) {
 
 TEST_P(SavedMapWithNames, IsLeftAloneWhileTheRobotLooksForItself) {
   EkfEstimator estimator(rig_, settings_, {.map = &map_});
-  BearingSet strange;  // no image of this map
+  BearingSet strange;  // these bearings do not match the map
   for (int i = 0; i < 6; ++i) strange.bearings.push_back({.azimuth_rad = 0.3 * i, .identity = i});
   Estimate before, after;
   estimator.estimate(before);

@@ -1,4 +1,4 @@
-// A filter that begins twice: once the image's centre is known, the map is made anew about it.
+// A filter that starts twice: once the image centre is known, the map is built anew with the corrected centre.
 
 #include "slam/estimator/second_start.hpp"
 
@@ -36,7 +36,7 @@ Rig colour_rig(const Scenario& scenario) {
 }
 
 SecondStart coloured(const Rig& rig, const EkfSettings& settings) {
-  const auto begin = [=](const std::optional<SecondBeginning>& again) -> std::unique_ptr<BeginsTwice> {
+  const auto begin = [=](const std::optional<Restart>& again) -> std::unique_ptr<RestartableEstimator> {
     if (!again) return std::make_unique<EkfEstimator>(rig, settings);
     return std::make_unique<EkfEstimator>(rig, settings, *again);
   };
@@ -47,7 +47,7 @@ bool begins_twice(const std::unique_ptr<Estimator>& estimator) {
   return dynamic_cast<const SecondStart*>(estimator.get()) != nullptr;
 }
 
-/// What a camera sees whose centre is not where the rig says, of things in eight colours.
+/// The bearings of a camera whose image centre differs from its rig, among landmarks of eight colours.
 std::vector<BearingSet> seen_by_knocked(World& world, unsigned seed) {
   RandomDraws draws(seed);
   for (BearingSet& set : world.bearings)
@@ -151,8 +151,8 @@ TEST(SecondStart, IsOfUseBelowLampsInImages) {
   EXPECT_FALSE(begins_twice(make_lamp_ekf_estimator(rig, {})));
 }
 
-/// A filter that moves towards the truth by two thirds of the way, whatever it sees, and is sure of it.
-class Overconfident final : public BeginsTwice {
+/// A filter that always corrects the centre by two thirds of its error, and claims a small covariance.
+class Overconfident final : public RestartableEstimator {
  public:
   Overconfident(double begun_px, double truth_px, std::int64_t next_id, int images_of_one_view = 0)
       : found_px_(begun_px + (truth_px - begun_px) * 2.0 / 3.0),
@@ -180,7 +180,7 @@ class Overconfident final : public BeginsTwice {
 TEST(SecondStart, BeginsAnewUntilTheCentreStays) {
   const double truth_px = 20.0;
   int beginnings = 0;
-  const auto begin = [&](const std::optional<SecondBeginning>& again) -> std::unique_ptr<BeginsTwice> {
+  const auto begin = [&](const std::optional<Restart>& again) -> std::unique_ptr<RestartableEstimator> {
     ++beginnings;
     return std::make_unique<Overconfident>(again ? again->camera_errors.x() : 0.0, truth_px, 0);
   };
@@ -188,12 +188,13 @@ TEST(SecondStart, BeginsAnewUntilTheCentreStays) {
   estimator.update({});
   EXPECT_TRUE(estimator.began_again());
   EXPECT_NEAR(estimator.running().camera_errors()->centre().mean_px.x(), truth_px, 0.5);
-  EXPECT_EQ(beginnings, 4);  // 13.3, 17.8, 19.3, and 19.8, half a pixel from there
+  EXPECT_EQ(beginnings, 4);  // at 13.3, 17.8, 19.3 and 19.8 px; the last is less than half a pixel from the truth
 }
 
-/// How many images of a moving robot it takes until one begins again whose views differ after `images_of_one_view`.
+/// The number of images until a moving robot's filter starts again, when its views differ after `images_of_one_view`
+/// images.
 std::size_t images_before_the_second(int images_of_one_view) {
-  const auto begin = [&](const std::optional<SecondBeginning>& again) -> std::unique_ptr<BeginsTwice> {
+  const auto begin = [&](const std::optional<Restart>& again) -> std::unique_ptr<RestartableEstimator> {
     return std::make_unique<Overconfident>(again ? again->camera_errors.x() : 0.0, 20.0, 0, images_of_one_view);
   };
   SecondStart estimator(begin, 1.0);
@@ -211,7 +212,7 @@ std::size_t images_before_the_second(int images_of_one_view) {
   return images;
 }
 
-/// However sure the first filter is: what images of one view tell of the centre is the same error again and again.
+/// However certain the first filter is, images of one view repeat the same error of the centre.
 TEST(SecondStart, WaitsUntilViewsDiffer) {
   EXPECT_EQ(images_before_the_second(1), 1u);
   EXPECT_EQ(images_before_the_second(30), 30u);

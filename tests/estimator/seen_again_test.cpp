@@ -1,4 +1,5 @@
-// What seeing landmarks again, or not, says of the pose, where an image shows but some of what is there.
+// Evidence for or against the pose from landmarks seen again or missed, when an image shows only a part of the
+// landmarks.
 
 #include "slam/lost/seen_again.hpp"
 
@@ -15,20 +16,20 @@ namespace {
 constexpr int kOnMap = 200, kImagesToLearn = 100, kInImage = 60;
 constexpr double kBetweenImages_m = 0.2, kGateShare = 0.03;
 
-/// A drive past landmarks of which a few are in sight, come and go, and are seen in most images while they are.
+/// A drive past landmarks. A few are in sight at a time, and most images show them while they are in sight.
 class DrivePast {
  public:
   struct Place {
     int in_sight = 10;
-    double seen = 0.8;  ///< of those in sight
+    double seen = 0.8;  ///< Probability that an image shows a landmark in sight
     int bearings = kInImage;
-    double by_accident = 0.0;  ///< of all, whether they are in sight or not
+    double by_accident = 0.0;  ///< Probability of a false sighting of any landmark
   };
 
-  /// One image further on. Returns what it says, after which the watch has heard it.
+  /// Drives on to the next image, gives its evidence to the watch and returns it as log odds.
   double look(const Place& place) {
     path_m_ += kBetweenImages_m;
-    const int first = static_cast<int>(path_m_ / 0.4);  // one goes out of sight every other image
+    const int first = static_cast<int>(path_m_ / 0.4);  // one landmark goes out of sight in every other image
     std::vector<Look> looks;
     for (int i = 0; i < kOnMap; ++i) {
       const bool in_sight = (i - first % kOnMap + kOnMap) % kOnMap < place.in_sight;
@@ -49,7 +50,7 @@ class DrivePast {
       EXPECT_FALSE(watch_.is_lost()) << image;
     }
   }
-  /// How many such images make it lost, kNever of them at most.
+  /// The number of such images until the robot counts as lost; at most kNever.
   static constexpr int kNever = 40;
   int images_until_lost(const Place& place) {
     for (int image = 1; image <= kNever; ++image) {
@@ -83,7 +84,7 @@ TEST(SeenAgain, FewThatAreAreEnough) {
   DrivePast drive;
   drive.learn({});
   for (int image = 0; image < 50; ++image) {
-    drive.look({.seen = 0.25});  // three of ten, of 200 on the map
+    drive.look({.seen = 0.25});  // three of the ten in sight, out of 200 on the map
     EXPECT_FALSE(drive.watch().is_lost()) << image;
   }
 }

@@ -1,5 +1,5 @@
-// Arrival must not show in the estimates: whatever the order in which samples reach the stage, as long as every reading
-// stamped before a set comes at the latest together with it, the same bits come out.
+// The order of arrival must not change the estimates. As long as every reading stamped before a set arrives no later
+// than the set, the estimates are the same to the last bit.
 
 #include <gtest/gtest.h>
 #include <optional>
@@ -11,7 +11,7 @@
 namespace azimuth {
 namespace {
 
-/// A lap with what a real recording has: a pause of the odometer, a pause of the camera, lost samples.
+/// A lap with the defects of a real recording: a pause of the odometer, a pause of the camera, and lost samples.
 World damaged_lap(const Scenario& scenario) {
   World world = simulate(scenario);
   const auto within = [](Stamp stamp, double from_s, double to_s) {
@@ -25,11 +25,11 @@ World damaged_lap(const Scenario& scenario) {
   return world;
 }
 
-/// How samples arrive, and when the estimator's thread finds the time to look.
+/// How samples arrive, and how often the estimator's thread runs.
 struct Arrival {
-  double odometry_first = 0.5;  ///< chance that the next arrival is a reading, where the contract leaves a choice
-  double advance = 0.5;         ///< chance to advance after an arrival
-  double look_ahead = 0.0;      ///< chance to ask for a prediction
+  double odometry_first = 0.5;  ///< Chance that the next sample is a reading, where the contract leaves a choice
+  double advance = 0.5;         ///< Chance to advance after an arrival
+  double look_ahead = 0.0;      ///< Chance to ask for a prediction
 };
 
 class Interleaving {
@@ -53,12 +53,13 @@ class Interleaving {
  private:
   void deliver(bool odometry_first) {
     const bool readings_left = readings_ < world_.odometry.size(), sets_left = sets_ < world_.bearings.size();
-    // Storage is bounded: neither kind of sample runs ahead of the other by more than the stage keeps.
+    // The stage's storage is bounded, so neither kind of sample may run ahead of the other by more than the stage
+    // keeps.
     constexpr Duration kAhead = std::chrono::seconds(20);
     bool reading = readings_left && (odometry_first || !sets_left);
     if (readings_left && sets_left) {
       const Stamp next_reading = world_.odometry[readings_].stamp, next_set = world_.bearings[sets_].stamp;
-      if (next_reading < next_set) reading = true;  // the contract
+      if (next_reading < next_set) reading = true;  // required by the contract
       if (next_reading > next_set + kAhead) reading = false;
     }
     if (reading) {
@@ -106,7 +107,7 @@ class SameBits : public testing::TestWithParam<double> {
 
 TEST_P(SameBits, WhateverTheArrival) {
   EXPECT_GT(estimates_, 250u);
-  EXPECT_LT(estimates_, world_.bearings.size());  // some had no odometry
+  EXPECT_LT(estimates_, world_.bearings.size());  // some sets had no odometry
   RandomDraws draws(51);
   for (unsigned seed = 2; seed < 14; ++seed)
     expect_same({draws.uniform(0.0, 1.0), draws.uniform(0.01, 1.0), 0.0}, seed);
@@ -118,7 +119,8 @@ TEST_P(SameBits, WhetherOrNotPredictionsAreAskedFor) {
   for (unsigned seed = 71; seed < 74; ++seed) expect_same({0.5, 0.5, 0.7}, seed);
 }
 
-/// A robot's serial line: now and then it is held up for up to 3 s, while bearings come. Keeps what was taken.
+/// Feeds a stage whose odometry is held up for up to 3 s now and then, as on a serial line, while bearings continue to
+/// come. Returns the samples that the stage accepted.
 World arrive_late(const World& world, const Rig& rig, unsigned seed, EstimateDigest& digest) {
   EstimatorStage stage(std::make_unique<EkfEstimator>(rig, EkfSettings{}), rig, StageSettings{});
   RandomDraws draws(seed);

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Has both examples listen to azimuthd, which plays the beginning of the shipped run: they hear the same poses, the map and the
-health.
+"""Lets both examples listen to azimuthd, which plays the beginning of the shipped run. They must receive the same
+poses, the map and the health.
 
-usage: lcm_examples_test.py SOURCE_TREE AZIMUTHD LISTEN LCM_GEN      in a network namespace whose loopback carries multicast
+usage: lcm_examples_test.py SOURCE_TREE AZIMUTHD LISTEN LCM_GEN      needs a network namespace whose loopback carries multicast
 """
 
 import re
@@ -13,7 +13,7 @@ import tempfile
 from pathlib import Path
 
 PLAYED_S = 10.0
-LEAST_HEARD = 0.5  # of the poses: datagrams may be lost on a busy machine
+LEAST_HEARD = 0.5  # share of the poses; datagrams may be lost on a busy machine
 
 TREE, AZIMUTHD, LISTEN, LCM_GEN = (Path(each) for each in sys.argv[1:5])
 
@@ -28,12 +28,12 @@ def shortened_run(folder):
 
 
 def listeners(folder):
-    """C++ and Python, each having said that it listens."""
-    types = [TREE / f"lcmtypes/{name}.lcm" for name in ("pose_cov_t", "map_chunk_t", "landmark_t")]
+    """Starts the C++ and the Python example and waits until both report that they listen."""
+    types = [TREE / f"drivers/lcmtypes/{name}.lcm" for name in ("pose_cov_t", "map_chunk_t", "landmark_t")]
     subprocess.run([LCM_GEN, "-p", "--ppath", folder, *types], check=True, stdout=subprocess.DEVNULL)
     started = []
     for command, environment in (([LISTEN], None),
-                                 ([sys.executable, "-B", TREE / "examples/lcm/listen.py"], {"PYTHONPATH": str(folder)})):
+                                 ([sys.executable, "-B", TREE / "docs/examples/lcm/listen.py"], {"PYTHONPATH": str(folder)})):
         process = subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True)
         if process.stdout.readline() != "listening\n":
             sys.exit(f"{command}: does not listen")
@@ -42,7 +42,7 @@ def listeners(folder):
 
 
 def steps(text):
-    """Lines of poses, by their step."""
+    """The lines with poses, keyed by their step."""
     return {int(found[1]): found[0] for found in re.finditer(r"^step (\d+)  x .*$", text, flags=re.M)}
 
 

@@ -1,4 +1,4 @@
-// Whether FastSLAM is as far off as it says, in pose and map.
+// Whether the errors of FastSLAM in pose and map agree with its covariances.
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -15,10 +15,10 @@
 namespace azimuth {
 namespace {
 
-/// Of one drive, or the means over several.
+/// Values of one drive, or their means over several drives.
 struct Consistency {
-  double nees = 0.0;       ///< of the pose, while health says `tracking`; 3 is ideal
-  double lamp_nees = 0.0;  ///< of the lamps in the plane, in the end; 2 is ideal
+  double nees = 0.0;       ///< NEES of the pose while health says `tracking`; 3 is ideal
+  double lamp_nees = 0.0;  ///< NEES of the lamps in the plane at the end; 2 is ideal
   double squared_error_m2 = 0.0, variance_m2 = 0.0;
 };
 
@@ -60,7 +60,7 @@ Consistency driven(const LampRun& run, int seed) {
 struct Drives {
   Consistency mean;
   double worst_nees = 0.0;
-  int beyond_chance = 0;  ///< whose mean is what one in a hundred would have
+  int beyond_chance = 0;  ///< Number of drives whose mean NEES exceeds the 99 % quantile
   double sigma_over_rmse() const { return std::sqrt(mean.variance_m2 / mean.squared_error_m2); }
 };
 
@@ -98,7 +98,7 @@ TEST(FastSlamConsistency, OfSimulatedHalls) {
   }
 }
 
-/// Their odometry is off by more than their rigs say, 1.1 times in the heading.
+/// The odometry of these runs has larger errors than their rigs say, by a factor of 1.1 in the heading.
 TEST(FastSlamConsistency, OfHallRuns) {
   AZIMUTH_REQUIRE_DATA("hall-runs");
   const Drives all = drives("hall-runs", 10, [](int i) {

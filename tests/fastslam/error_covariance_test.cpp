@@ -1,4 +1,4 @@
-// The joint errors of a particle, against errors that are drawn and go the same way one by one.
+// The joint error covariance of a particle, compared with errors that are drawn and propagated one by one.
 
 #include "slam/fastslam/error_covariance.hpp"
 
@@ -40,7 +40,7 @@ Eigen::Vector2d drawn(const Symmetric2& covariance, RandomDraws& draws) {
   return drawn(in_space.matrix(), draws).head<2>();
 }
 
-/// A particle's steps about a fixed path: the pose, the views and the gains of each.
+/// The steps of a particle along a fixed path: the pose, the views of the lamps and the gains of each step.
 class Steps {
  public:
   static constexpr int kCount = 4;
@@ -77,14 +77,14 @@ class Steps {
   std::array<Symmetric3, kThreeLamps> Sigma;
 };
 
-/// Errors of one drawn particle.
+/// The errors of one drawn particle.
 struct Drawn {
   Eigen::Vector3d e_x = Eigen::Vector3d::Zero();
   std::array<Eigen::Vector3d, kThreeLamps> e_m;
   Eigen::Vector2d e_scales;
 };
 
-/// One landmark after the other, as algorithm 3 does it, and then algorithm 4.
+/// Propagates the errors through one step: one landmark after the other as in algorithm 3, then algorithm 4.
 void go(Drawn& error, const Steps& steps, RandomDraws& draws) {
   error.e_x = steps.moved.G * error.e_x + steps.moved.by_scales * error.e_scales + drawn(steps.moved.noise, draws);
   std::array<Eigen::Vector2d, kThreeLamps> v;
@@ -126,7 +126,7 @@ void go(ErrorCovariance& errors, const Steps& steps) {
   errors.keep_pose(steps.step);
 }
 
-/// Each entry to a share of the standard deviations it is of.
+/// Compares each entry relative to the standard deviations that belong to it.
 void expect_near(const Eigen::Matrix3d& sampled, const Eigen::Matrix3d& computed) {
   for (Eigen::Index i = 0; i < 3; ++i)
     for (Eigen::Index j = 0; j < 3; ++j)
@@ -198,7 +198,7 @@ TEST(ErrorCovariance, ForgetsLandmarksAndKeepsTheOthers) {
   EXPECT_EQ(errors.landmark(2), of_last);
 }
 
-/// Mapped from two poses kept, it is off by what both were off by, each with its share.
+/// A landmark mapped from two kept poses has the weighted errors of both poses.
 TEST(ErrorCovariance, OfALandmarkMappedFromPosesKept) {
   ErrorCovariance errors(1, 1, Eigen::Vector2d::Zero());
   MovedPose moved;
@@ -214,7 +214,7 @@ TEST(ErrorCovariance, OfALandmarkMappedFromPosesKept) {
   errors.mapped_from(0, 0.5 * Eigen::Matrix3d::Identity());
   errors.mapped_from(2, 0.5 * Eigen::Matrix3d::Identity());
   errors.add(1, Symmetric3{});
-  // Variances 0.01 and 0.03, 0.01 in common.
+  // The variances are 0.01 and 0.03, with 0.01 in common.
   EXPECT_NEAR(errors.landmark(1)(0, 0), 0.25 * (0.01 + 0.03 + 2.0 * 0.01), 1e-15);
 }
 
@@ -225,7 +225,7 @@ TEST(ErrorCovariance, ForgetsPosesOfLongAgoAndKeepsTheLandmarks) {
   moved.G.setIdentity();
   moved.noise = Eigen::Vector3d(0.01, 0.0, 0.0).asDiagonal();
   moved.by_scales.setZero();
-  for (std::int64_t step = 0; step < kSteps; step += 2) {  // nothing new was seen in every other one
+  for (std::int64_t step = 0; step < kSteps; step += 2) {  // every other step adds no new landmark
     errors.predict(moved);
     errors.keep_pose(step);
   }
@@ -237,7 +237,7 @@ TEST(ErrorCovariance, ForgetsPosesOfLongAgoAndKeepsTheLandmarks) {
   EXPECT_NEAR(errors.landmark(2)(1, 1), 0.05, 1e-15);
 }
 
-/// What a point is off by that is fitted to rays from poses which are off by steps that add up.
+/// The error of a point fitted to rays, when the poses of the rays have errors that accumulate step by step.
 TEST(ErrorOfFit, IsThatOfPointsFittedFromPathsDrawn) {
   constexpr int kDraws = 4000;
   constexpr std::size_t kRays = 8;
@@ -251,7 +251,8 @@ TEST(ErrorOfFit, IsThatOfPointsFittedFromPathsDrawn) {
   for (int n = 0; n < kDraws; ++n) {
     std::vector<LampSighting> seen;
     std::vector<Pose2> believed(kRays);
-    // Off by twice the variance: by what the proposals' means are, and by the draws from them. The last pose is exact.
+    // Each step has twice the variance: once from the means of the proposals, once from the draws. The last pose is
+    // exact.
     Pose2 T_wrong_true;
     for (std::size_t i = kRays; i-- > 0;) {
       const Pose2 truth{0.3 * static_cast<double>(i), 0.0, 0.0};

@@ -88,7 +88,7 @@ TEST(FastSlamEstimator, MoreSightingsThanThereIsRoomForDoNoHarm) {
   motion.T_start_end = {0.2, 0.0, 0.0};
   motion.covariance = Eigen::Vector3d(1e-4, 1e-4, 1e-5).asDiagonal();
   motion.path_m = 0.2;
-  for (int image = 0; image < 700; ++image) {  // further than paths are kept
+  for (int image = 0; image < 700; ++image) {  // more images than paths keep
     estimator.predict(motion);
     estimator.update(set);
   }
@@ -97,8 +97,8 @@ TEST(FastSlamEstimator, MoreSightingsThanThereIsRoomForDoNoHarm) {
   EXPECT_TRUE(estimate.T_map_body.vector().allFinite());
 }
 
-/// Detections that claim a tenth of a pixel, of lamps 5 m away: 2 mm, and no particle
-/// knows its own path that well.
+/// Detections that claim a tenth of a pixel, for lamps 5 m away. This corresponds to 2 mm, and no particle knows its
+/// own path that well.
 TEST(FastSlamEstimator, SightingsThatClaimTooMuchDoNoHarm) {
   LampRun run = simulated_hall(6);
   for (std::size_t i = 0; i < run.sets.size(); ++i)
@@ -127,7 +127,7 @@ TEST(FastSlamEstimator, SightingsThatClaimTooMuchDoNoHarm) {
   EXPECT_GT(believing_m, 2.0 * with_floor_m) << "hardly a crossing agrees with all its sightings";
 }
 
-/// Names need no association: a lamp keeps its name, and the drift that association has to bear is the same.
+/// Lamps with identities need no association: a lamp keeps its identity. The drift is the same as with association.
 TEST(FastSlamEstimator, NamesAreBelieved) {
   LampRun run = simulated_hall(4);
   run.rig.camera.identities = true;

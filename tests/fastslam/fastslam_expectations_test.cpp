@@ -1,4 +1,4 @@
-// Where FastSLAM expects to see its lamps, between prediction and update.
+// The lamps that FastSLAM expects to see, between prediction and update.
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace azimuth {
 namespace {
 
-/// What came of the sightings that the filter then took for a lamp of its map.
+/// Statistics of the sightings that the filter then associates with a lamp of its map.
 struct Expectations {
   int recognised = 0, in_own_gate = 0, expected = 0;
   double gate_area_rad2 = 0.0;

@@ -1,4 +1,4 @@
-// FastSLAM in halls with lamps that all look alike: the second paper's experiment (SPEC II.10).
+// FastSLAM in halls with lamps that all look alike: the second paper's experiment (mathematics II.10).
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -54,7 +54,7 @@ TEST(LampHall, EveryLoopIsClosedInSimulatedHalls) {
   const Summary recommended = summarise("simulated, default", kHallSeeds, {}, simulated);
   EXPECT_EQ(recommended.closed, recommended.runs);
   EXPECT_LE(recommended.position_mean_m, 0.42);
-  // Seven degrees with the covariance as printed do harm.
+  // The preset with 7 degrees and the covariance as printed in the paper maps much worse.
   const Summary narrow = summarise("simulated, paper-7deg", kHallSeeds, paper_7deg_fastslam_preset(), simulated);
   EXPECT_GT(narrow.lamp_mean_m, 2.0 * paper.lamp_mean_m);
 }
@@ -69,7 +69,8 @@ TEST(LampHall, EveryLoopIsClosedInHallRuns) {
   EXPECT_LE(recommended.position_mean_m, 0.42);
 }
 
-/// A robot that comes back with a pose that is wrong by a metre and six degrees, as sure of it as that.
+/// A robot that returns with a pose error drawn from standard deviations of a metre per axis and six degrees, which the
+/// filter assumes, too.
 struct Return {
   Pose2 believed;
   Viewpoint x_hat;
@@ -122,7 +123,7 @@ bool all_right(const Return& back, const std::vector<Eigen::Vector3d>& lamps, La
   return psi == back.lamp_of;
 }
 
-/// All sightings at once, by how the one error of the pose moves all predictions.
+/// Associates all sightings jointly: the common pose error correlates all predictions.
 bool all_right_jointly(const Return& back, const std::vector<Eigen::Vector3d>& lamps) {
   const auto size = 2 * static_cast<Eigen::Index>(lamps.size());
   std::vector<Eigen::Vector2d> m;
@@ -138,7 +139,8 @@ bool all_right_jointly(const Return& back, const std::vector<Eigen::Vector3d>& l
   std::vector<MeasuredDirection> measured;
   for (const LampSighting& seen : back.sightings)
     measured.push_back({TangentDirection(seen.azimuth_rad, seen.zenith_rad, {seen.covariance.xx, seen.covariance.yy})});
-  // The best one, as lenient with a linear model (8 standard deviations) and as sure that all is mapped as the others.
+  // Gates that give the best result: as wide for a linear model (8 standard deviations) as the other methods, and as
+  // certain that every lamp is mapped.
   const DirectionGates gates{
       .individual_chi2 = 64.0, .joint_probability = 1.0 - 1e-9, .new_density_per_sr = 1e-9, .rival_log_ratio = 0.0};
   std::vector<DirectionMatch> matches;
@@ -146,7 +148,7 @@ bool all_right_jointly(const Return& back, const std::vector<Eigen::Vector3d>& l
   return std::ranges::equal(matches, back.lamp_of, {}, &DirectionMatch::landmark);
 }
 
-/// SPEC part IV: the share of loop-closing images with every association right.
+/// mathematics part IV: the share of loop-closing images with every association right.
 TEST(LampHall, AssociationAtLoopClosing) {
   const std::vector<Eigen::Vector3d> lamps = simulated_hall(1).lamps;
   const auto share_of = [&](const char* title, const std::function<bool(const Return&)>& is_right) {

@@ -38,7 +38,7 @@ TEST(LampView, JacobiansAgreeWithDifferences) {
   for (int trial = 0; trial < 500; ++trial) {
     const Eigen::Vector3d pose = draws.pose(10.0).vector(), lamp = random_lamp(draws);
     const LampView v = view(Viewpoint(pose, kHeight_m), lamp);
-    if (v.rho_m < 0.3) continue;  // differences are of no use where the azimuth turns within a step
+    if (v.rho_m < 0.3) continue;  // the azimuth changes too fast for numeric differences
     const auto H_x = differences([&](const Eigen::Vector3d& x) { return direction_from(x, lamp); }, pose);
     const auto H_m = differences([&](const Eigen::Vector3d& m) { return direction_from(pose, m); }, lamp);
     EXPECT_LT((v.H_x() - H_x).norm(), 1e-6);
@@ -71,7 +71,7 @@ TEST(LampView, InnovationIsTheWrappedDifference) {
 }
 
 TEST(LampView, SmallAnglesAreExact) {
-  const double other = 2.5;  // beside a large one, too
+  const double other = 2.5;  // a large angle in the other component must not disturb the small one
   for (double angle = -0.2; angle < 0.2; angle += 1e-4) {
     const Eigen::Vector2d angles =
         small_atan2(Both{3.0 * std::sin(angle), std::sin(other)}, Both{3.0 * std::cos(angle), std::cos(other)});
@@ -118,7 +118,7 @@ TEST(LampUpdate, IsTheKalmanUpdate) {
   }
 }
 
-/// Fits to noisy rays spread as their covariance says.
+/// The scatter of fits to noisy rays agrees with their covariance.
 TEST(RayFit, CovarianceIsHonest) {
   RandomDraws draws(6);
   constexpr int kTrials = 400;

@@ -6,13 +6,13 @@
 namespace azimuth {
 namespace {
 
-/// Names leave nothing to associate.
+/// Lamps with identities need no association.
 class NoAssociator final : public LampAssociator {
  public:
   void associate(const LampPairs&, std::span<int>) override { ADD_FAILURE() << "asked although lamps have names"; }
 };
 
-/// Particles hold the same lamps in slots of their own, as when one has lost a lamp and found it again.
+/// Particles hold the same lamps in different slots, as after one particle has lost a lamp and found it again.
 struct NamedLamps : testing::Test {
   static constexpr double kHeight_m = 1.8;
   static Eigen::Vector3d place(Identity name) { return {1.0 + static_cast<double>(name), 0.5, 6.5}; }
@@ -30,7 +30,7 @@ struct NamedLamps : testing::Test {
     }
     recognition.begin(seen);
   }
-  /// The names of the landmarks that particle k takes the sightings for.
+  /// The identities of the landmarks that particle k associates with the sightings.
   std::vector<Identity> recognised_by(std::size_t k) {
     NoAssociator none;
     recognition.recognise(particles, {k, Viewpoint(Pose2{}, kHeight_m), {}, {1e-6, 0.0, 0.0, 1e-6, 0.0, 1e-6}}, none);

@@ -1,4 +1,4 @@
-// A particle looks for missed lamps among those near it only: it must find the same as if it looked at all.
+// A particle checks only the lamps near it for missed detections. The result must equal that of checking all lamps.
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -63,9 +63,9 @@ TEST(NearLamps, FollowTheirLandmarksThroughSlotsAndParticles) {
   EXPECT_EQ(ids_nearby(0).size(), 70U) << "nobody knows better of new ones";
   for (std::size_t slot = 0; slot < 70; ++slot)
     if (slot % 2 == 0) particles.nearby(0).erase(slot);
-  particles.remove_landmark(0, 5);   // 69, which is near, comes to its slot
-  particles.remove_landmark(0, 7);   // 68 does, which is not
-  particles.remove_landmark(0, 67);  // the last one
+  particles.remove_landmark(0, 5);   // lamp 69, which is nearby, moves to its slot
+  particles.remove_landmark(0, 7);   // lamp 68, which is not nearby, moves to its slot
+  particles.remove_landmark(0, 67);  // the last slot
   std::set<std::int64_t> odd;
   for (int id = 1; id < 70; id += 2) odd.insert(id);
   for (const int gone : {5, 7, 67}) odd.erase(gone);
@@ -77,8 +77,8 @@ TEST(NearLamps, FollowTheirLandmarksThroughSlotsAndParticles) {
   EXPECT_TRUE(ids_nearby(2).empty());
 }
 
-/// A lamp without name at the image's rim, a metre beyond where it would count as missed: what the image says of it
-/// must tell at once, though the robot has come so far that all landmarks are asked anew.
+/// A lamp without identity is seen at the image's rim, a metre farther out than where a miss counts. The robot has
+/// driven so far that all landmarks are checked anew, but the image's evidence must count at once.
 TEST(NearLamps, WhatIsSeenAtTheRimIsRefutedAtOnce) {
   const LampCamera camera{0.5, 1.2, 0.85, false};
   constexpr double kManyLights = 1e12;
@@ -107,7 +107,7 @@ TEST(NearLamps, WhatIsSeenAtTheRimIsRefutedAtOnce) {
   EXPECT_TRUE(filter.particles().infos(filter.best()).empty());
 }
 
-/// Two rows of lamps above a corridor, under which a robot drives to and fro.
+/// Two rows of lamps above a corridor, along which a robot drives to and fro.
 struct Corridor : testing::Test {
   static constexpr double kHeight_m = 0.5, kCeiling_m = 3.0, kSpacing_m = 3.0, kMaxZenith_rad = 1.0;
   static constexpr int kPairs = 12;

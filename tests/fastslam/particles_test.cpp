@@ -27,7 +27,7 @@ TEST(LowVariance, CopiesAreProportionalToWithinOne) {
   }
 }
 
-/// Each particle says in its map, its candidates and its path which one it descends from.
+/// Each particle marks its map, its candidates and its path, so that copies reveal their ancestor.
 TEST(Particles, ResamplingCopiesEverything) {
   constexpr std::size_t kCount = 6;
   Particles particles(kCount, 4, 3);

@@ -12,7 +12,8 @@ namespace {
 constexpr double kLowCamera_m = 1.8;
 constexpr int kLamps = 5;
 
-/// The same by one large Gaussian: the joint density of all innovations, and the pose given all of them.
+/// Adding the sightings one after the other must equal one large Gaussian: the joint density of all innovations, and
+/// the pose given all of them.
 TEST(PoseProposal, OneAfterTheOtherIsAllAtOnce) {
   RandomDraws draws(1);
   for (int trial = 0; trial < 100; ++trial) {

@@ -1,4 +1,5 @@
-// A crowd of reflections from the first image on: a map of no real lamp must not come of it, nor be called tracking.
+// Many reflections from the first image on. They must neither make a map without real lamps nor be reported as
+// tracking.
 
 #include <cmath>
 #include <fmt/format.h>
@@ -52,7 +53,7 @@ TEST(Reflections, AmongLampsAreNotMapped) {
   }
 }
 
-// The evidence by itself, gone through as often as it takes.
+// Simulates the evidence of many reflections directly, without a filter.
 TEST(LampEvidence, ProvesWhatIsNoLampOnceInTenThousandAtMost) {
   RandomDraws draws(7);
   constexpr int kLandmarks = 20000, kLooks = 50;

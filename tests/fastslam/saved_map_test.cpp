@@ -1,4 +1,4 @@
-// FastSlamEstimator: maps of lamps in space that outlive it, its own and those of the EKF over lamps.
+// FastSlamEstimator: saving and loading maps of lamps in space, its own maps and those of the EKF over lamps.
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@
 namespace azimuth {
 namespace {
 
-constexpr std::size_t kSavedAt = 160;  // images, more than a round
+constexpr std::size_t kSavedAt = 160;  // number of images, more than a round
 constexpr std::size_t kCarriedTo = 210;
 constexpr double kIrregular_m = 0.8;
 
@@ -25,7 +25,7 @@ using FastSlamRobot = test::DrivenLamps<FastSlamEstimator>;
 using LampEkfRobot = test::DrivenLamps<LampEkfEstimator>;
 
 FastSlamRobot robot_of(const LampRun& run, const MapStart& start = {}, std::size_t first = 0) {
-  return {run, FastSlamEstimator(run.rig, {}, {}, start), first};
+  return {run, FastSlamEstimator(run.rig, {}, start), first};
 }
 
 class SavedFastSlamMap : public testing::Test {
@@ -36,7 +36,8 @@ class SavedFastSlamMap : public testing::Test {
     saved_ = first.estimator.save_map(map_);
   }
 
-  /// To the end of the run: never far off once it is found, and not farther than it says.
+  /// Drives to the end of the run. After relocalisation the pose must always be near the truth and agree with its
+  /// covariance.
   template <class Robot>
   void expect_at_home(Robot& robot) {
     double worst_m = 0.0, nees = 0.0, found_after_m = 0.0;
@@ -87,7 +88,7 @@ TEST_F(SavedFastSlamMap, ComesBackFromAFile) {
   encode(map_, file);
   MapSnapshot loaded;
   ASSERT_EQ(decode_map(file, loaded), std::nullopt);
-  // Saved again at once, it is what it was.
+  // A map that is saved again at once is unchanged.
   FastSlamRobot robot =
       robot_of(run_, {.map = &loaded, .pose_known = true, .sigma_position_m = 0.0, .sigma_heading_rad = 0.0}, kSavedAt);
   MapSnapshot again;

@@ -1,5 +1,5 @@
-// Any bytes as a bag, of ROS 1 and as MCAP: gone through to its end, every message within what was given or unpacked,
-// and the same each time.
+// Any bytes as a ROS 1 bag and as MCAP. Reading must reach the end, messages must lie within the given or unpacked
+// bytes, and a repetition must give the same result.
 
 #include <cstdint>
 #include <cstdlib>

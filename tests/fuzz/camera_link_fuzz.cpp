@@ -1,4 +1,4 @@
-// Messages of a camera link from a peer that sends anything: what is accepted is encoded to the same bytes again.
+// Arbitrary messages of a camera link. An accepted message must encode to the same bytes.
 
 #include <algorithm>
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace {
 
 using namespace azimuth::camera_link;
 
-/// Bearing sets are left out of this: azimuths are wrapped.
+/// Does not apply to bearing sets, whose azimuths are wrapped.
 void require_same(azimuth::Bytes message, const std::vector<std::byte>& again) {
   if (!std::ranges::equal(message, again)) std::abort();
 }

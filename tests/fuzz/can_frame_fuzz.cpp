@@ -1,5 +1,5 @@
-// Any datagrams as those of a CAN socket: what is a frame can be written again, a signal is within it or missed, and
-// whatever a base sends, readings are finite and in order.
+// Any datagrams as input of a CAN socket. Frames must survive encoding, signals must lie within their frame or count as
+// missing, and readings must be finite and in order.
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,7 @@ void check_frame(const CanFrame& frame) {
   require(decode_can_frame(std::span(datagram).first(size)) == frame);
 }
 
-/// A signal anywhere, also where there is none.
+/// A signal at any bit position, including positions outside the frame.
 void check_signal(Bytes where, const CanFrame& frame) {
   const CanBits bits{where[0] + 2 * where[1], 1 + where[2] % 64,
                      where[3] % 2 == 0 ? CanByteOrder::intel : CanByteOrder::motorola};
@@ -39,7 +39,7 @@ void check_signal(Bytes where, const CanFrame& frame) {
   require(copy == frame);
 }
 
-/// What the base sends, one datagram after the other: a byte for the time that passed, one for which id, then its data.
+/// Input of a base, one datagram after the other: a byte for the elapsed time, a byte for the id, then the data.
 class Script {
  public:
   explicit Script(const CanLayout& layout) : layout_(layout), odometer_(layout, {}, Duration{0}) {}

@@ -1,5 +1,5 @@
-// Any text as each table of a run folder: errors or rows, never a crash; and rows written as a table come back equal.
-// The first byte chooses the table.
+// Any text as each table of a run folder. The result must be errors or rows, and rows must survive writing and reading.
+// The first byte selects the table.
 
 #include <array>
 #include <cstddef>
@@ -17,7 +17,7 @@ void require(bool condition) {
   if (!condition) std::abort();
 }
 
-/// `read(text, errors)` gives rows, `write(rows)` a table.
+/// `read(text, errors)` returns rows, `write(rows)` returns a table.
 template <class Read, class Write>
 void check(std::string_view text, Read read, Write write) {
   FileErrors errors;

@@ -1,5 +1,5 @@
-// Any bytes as a bag of ROS 2 in SQLite: gone through to an end, with no more bytes of messages than the file has, and
-// the same each time.
+// Any bytes as a ROS 2 bag in SQLite. Reading must end, messages must not have more bytes than the file, and a
+// repetition must give the same result.
 
 #include <cstdint>
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// Any text as a DBC file: it is refused with lines that exist, or every signal that says nothing against itself can be
-// read from a frame of its size.
+// Any text as a DBC file. It must be refused with existing line numbers, or every signal without a stated problem must
+// be readable from a frame of its size.
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// Any bytes as an LCM log: events within bounds, every byte part of one or counted; and whatever run comes out is
-// sound.
+// Any bytes as an LCM log. Events must be within bounds, every byte must belong to an event or be counted, and the
+// resulting run must be valid.
 
 #include <algorithm>
 #include <cstddef>
@@ -40,7 +40,7 @@ void require_sound(const Run& run) {
   }
 }
 
-/// Images lie where the log says, and uncompressed ones are as large as they claim.
+/// Images must lie within the log, and uncompressed ones must have their stated size.
 void require_images_within(const Run& run, Bytes log) {
   for (const FrameFile& frame : run.frames) {
     if (!frame.part || frame.part->size == 0) continue;

@@ -1,4 +1,4 @@
-// Whatever another program writes: a line is a reading that can be, or none.
+// Any line from another program must give a plausible reading or none.
 
 #include <cstdlib>
 

@@ -1,6 +1,6 @@
-// Any text as a table of another program, and any text as what --columns says of it: errors with lines that exist, or
-// rows that stand in the order of their stamps and can be kept. The first byte chooses the table, what follows to the
-// end of the line are the columns.
+// Any text as a table of another program, and any text as its --columns. The result must be errors with existing line
+// numbers, or valid rows in the order of their stamps. The first byte selects the table; the rest of the first line are
+// the columns.
 
 #include <algorithm>
 #include <cmath>

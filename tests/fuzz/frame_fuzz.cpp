@@ -1,5 +1,5 @@
-// Frames of any format, size and content through every front end and into the picture that shows them: what is found
-// are finite numbers, and no byte beyond the frame is read.
+// Frames of any format, size and content in every front end and in the debug picture. Detections must be finite, and no
+// byte beyond the frame may be read.
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@
 
 #include "drivers/camera/frame.hpp"
 #include "drivers/camera/jpeg.hpp"
-#include "picture/picture.hpp"
+#include "drivers/picture/picture.hpp"
 #include "slam/perception/make_perception.hpp"
 
 namespace {
@@ -20,7 +20,7 @@ namespace {
 using namespace azimuth;
 
 constexpr std::size_t kHeader = 5;
-constexpr int kMaxJpegSide_px = 256;  // the time that large images take is no news
+constexpr int kMaxJpegSide_px = 256;  // larger images only take time
 constexpr std::array kFrontEnds{FrontEnd::colour, FrontEnd::sift, FrontEnd::lamps};
 
 CameraRig rig() {
@@ -31,7 +31,7 @@ CameraRig rig() {
   return rig;
 }
 
-/// Lamps need to know their directions.
+/// The lamp front end needs a camera model.
 CameraRig fisheye() {
   CameraRig rig = ::rig();
   rig.model = EquidistantRig{.focal_length_px = 60.0};
@@ -64,7 +64,7 @@ void show(const Frame& frame) {
   if (!drawn.bytes.empty() && !drawn.readable()) std::abort();
 }
 
-/// Whether a front end would spend its time on it alone.
+/// Whether the image would only cost time.
 bool is_large_jpeg(const Frame& frame) {
   static JpegDecoder decoder;
   const auto header = decoder.read_header(frame.bytes());

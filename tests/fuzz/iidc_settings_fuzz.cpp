@@ -1,4 +1,5 @@
-// Any text as a setting of an IIDC camera: what is taken can be written and read again, and what is not is named.
+// Any text as a setting of an IIDC camera. An accepted setting must survive writing and reading; a refused one must be
+// named.
 
 #include <cstdint>
 #include <cstdlib>

@@ -1,5 +1,5 @@
 #pragma once
-// What any decoder of image files owes to any bytes.
+// Requirements on every decoder of image files, for any bytes.
 
 #include <cstddef>
 #include <cstdlib>
@@ -9,9 +9,9 @@
 
 namespace azimuth::fuzz {
 
-inline constexpr int kMaxPixels = 1 << 16;  // the library's work on large images is no news
+inline constexpr int kMaxPixels = 1 << 16;  // larger images only take time
 
-/// Decodes it to grey and to colours. What is refused has a reason, what is accepted has the size its header claims.
+/// Decodes to grey and to colour. A refused file needs a reason; an accepted one must have the size in its header.
 template <class Decoder>
 void decode(Decoder& decoder, std::span<const std::byte> file);
 
@@ -29,6 +29,6 @@ void azimuth::fuzz::decode(Decoder& decoder, std::span<const std::byte> file) {
     unsigned sum = 0;
     for (const std::byte byte : image.bytes) sum += std::to_integer<unsigned>(byte);
     [[maybe_unused]] static volatile unsigned sink;
-    sink = sum;  // reads every pixel under the sanitizers' eyes
+    sink = sum;  // lets the sanitizers check every pixel
   }
 }

@@ -1,4 +1,4 @@
-// Any bytes as an image file: an image that can be read as a whole, or a reason, never a crash.
+// Any bytes as an image file. The result must be a completely readable image or a reason.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,4 +1,4 @@
-// JPEG images from anywhere.
+// Any bytes as a JPEG image.
 
 #include <cstddef>
 #include <cstdint>

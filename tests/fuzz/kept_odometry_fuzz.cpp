@@ -1,5 +1,5 @@
-// drivers/storage: whatever a file of kept odometry holds, reading it is safe, and what is read is written as the same
-// bytes. The seal (magic and checksum) is made good first, since no fuzzer finds it.
+// Any bytes as a file of kept odometry. Reading must be safe, and the result must be written as the same bytes. Magic
+// and checksum are corrected first, because no fuzzer finds them.
 
 #include <cstddef>
 #include <cstdint>

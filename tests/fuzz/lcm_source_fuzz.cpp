@@ -1,6 +1,6 @@
-// Any datagrams from any senders: what odometry and frames come of them is sound and in order, and all memory is there.
+// Any datagrams from any senders. The resulting odometry and frames must be valid, in order, and in accessible memory.
 //
-// Input: one byte of choices, then datagrams, each after a byte (two bits of sender, six of time) and two of length.
+// Input: one byte of choices, then datagrams, each after one byte (two bits of sender, six of time) and two of length.
 
 #include <algorithm>
 #include <cstdint>
@@ -19,7 +19,7 @@ void require(bool condition) {
   if (!condition) std::abort();
 }
 
-/// Takes what came, and compares it with what came before.
+/// Takes the new results and compares them with the previous ones.
 class Follower {
  public:
   void take_from(LcmOdometry& odometry) {
@@ -38,7 +38,7 @@ class Follower {
     require(!frame.bytes().empty());
     require(frame.format().pixels == PixelFormat::mjpeg || frame.view().readable());
     if (held_) require(frame.stamp > held_.stamp);
-    // Every byte is read: the sanitizer knows whether it may be.
+    // Reads every byte, so that the sanitizer checks the access.
     sum_ += static_cast<unsigned>(std::ranges::count(frame.bytes(), std::byte{1}));
     held_ = std::move(frame);
   }

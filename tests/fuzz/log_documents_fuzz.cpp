@@ -1,7 +1,7 @@
-// A sound log whose documents hold any bytes: rig, configuration, kept odometry, tables, map, marks of segments. What
-// a catalogue and a replay read of it are values or violations, never a crash.
+// A valid log whose documents hold any bytes: rig, configuration, kept odometry, tables, map, segment marks. Catalogue
+// and replay must read values or report violations.
 //
-// The first byte of the input says which document, the second whether the next one follows after a zero byte.
+// The first byte of the input selects the document; the second tells whether the next one follows after a zero byte.
 
 #include <algorithm>
 #include <array>

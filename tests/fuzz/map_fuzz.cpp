@@ -1,5 +1,5 @@
-// drivers/storage: whatever a map file holds, reading it is safe, and what is read is written as the same bytes. The
-// seal (size and checksum) is made good first, since no fuzzer finds it.
+// Any bytes as a map file. Reading must be safe, and the result must be written as the same bytes. Size and checksum
+// are corrected first, because no fuzzer finds them.
 
 #include <algorithm>
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Any text as a calibration of OCamCalib: violations, or a rig that makes a camera.
+// Any text as an OCamCalib calibration. The result must be violations or a rig with a valid camera.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,7 @@
-// Any bytes as what a daemon publishes: refused, or sound; and maps and paths of such pieces in any order.
+// Any bytes as messages of a daemon. They must be refused or valid, and so must maps and paths from such pieces in any
+// order.
 //
-// Input: messages, each after a byte that says what it is and two of length.
+// Input: messages, each after one byte for its type and two for its length.
 
 #include <algorithm>
 #include <cmath>

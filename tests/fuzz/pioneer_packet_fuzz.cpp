@@ -1,5 +1,5 @@
-// Any bytes as a stream from a Pioneer: every byte is part of a packet or counted, a good packet behind them is found,
-// and what every packet says can be read and written again.
+// Any bytes as a stream from a Pioneer. Every byte must belong to a packet or be counted, a valid packet after them
+// must be found, and the content of every packet must survive decoding and encoding.
 
 #include <algorithm>
 #include <array>
@@ -23,7 +23,7 @@ void check_packet(const Packet& packet) {
   if (const auto gyro = decode_gyro(packet.data)) require(decode_gyro(test::data_of(encode_gyro(*gyro))) == gyro);
 }
 
-/// The size of all packets found.
+/// Feeds the stream in pieces and returns the total size of all packets found.
 std::size_t scan(PacketScanner& scanner, ByteView stream, std::size_t piece) {
   std::size_t in_packets = 0;
   while (!stream.empty()) {
@@ -39,7 +39,8 @@ std::size_t scan(PacketScanner& scanner, ByteView stream, std::size_t piece) {
 void check_stream(ByteView stream, std::size_t piece) {
   PacketScanner scanner(is_plausible_config);
   std::size_t in_packets = scan(scanner, stream, piece);
-  // Whatever the stream announced last has ended after that many bytes of silence; then a good packet comes through.
+  // After this many zero bytes any packet announced by the stream has ended, so that the next valid packet must be
+  // found.
   constexpr std::array<std::uint8_t, kMaxFrameSize> kSilence{};
   in_packets += scan(scanner, kSilence, piece);
   const Frame good = encode_frame(std::array<std::uint8_t, 3>{0x32, 1, 2});

@@ -1,5 +1,5 @@
-// Any script of what a Pioneer and its line may do: session and odometer keep their promises, send only what moves
-// nothing, and afterwards a robot in good order gets its session.
+// Any script of events at a Pioneer and its line. Session and odometer must keep their invariants and send no command
+// that moves the robot; afterwards a robot that works correctly must get its session.
 
 #include "tests/drivers/pioneer/conversation.hpp"
 

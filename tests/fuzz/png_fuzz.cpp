@@ -1,4 +1,4 @@
-// PNG images from anywhere.
+// Any bytes as a PNG image.
 
 #include <cstddef>
 #include <cstdint>

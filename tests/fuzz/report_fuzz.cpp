@@ -1,4 +1,4 @@
-// Any bytes as a report: values that can be compared, or reasons, never a crash; and what is compared can be written.
+// Any bytes as a report. The result must be comparable values or reasons, and comparisons must be writable.
 
 #include <cmath>
 #include <cstddef>

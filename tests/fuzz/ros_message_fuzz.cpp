@@ -1,6 +1,5 @@
-// Any text as the definition of a ROS message and any bytes as the message: taken apart or refused, and what comes of
-// it is within the bytes. The first byte chooses the type and the version of ROS, the definition ends
-// with a zero.
+// Any text as the definition of a ROS message and any bytes as the message. The message must be refused, or its parts
+// must lie within the bytes. The first byte selects the type and the version of ROS; a zero byte ends the definition.
 
 #include <algorithm>
 #include <array>

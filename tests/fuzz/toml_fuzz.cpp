@@ -1,5 +1,5 @@
-// Any text as a rig, a configuration and an override: violations or values, never a crash; and every value that comes
-// out lies in its range.
+// Any text as a rig, a configuration and an override. The result must be violations or values, and every value must be
+// in its range.
 
 #include <cstddef>
 #include <cstdint>

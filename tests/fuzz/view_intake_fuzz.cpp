@@ -1,6 +1,6 @@
-// Any datagrams from any senders: what is shown of them stays bounded, and is a stream of sound events.
+// Any datagrams from any senders. The viewer's output must stay bounded and must be a stream of valid events.
 //
-// Input: datagrams, each after a byte (two bits of sender, six of time) and two of length.
+// Input: datagrams, each after one byte (two bits of sender, six of time) and two of length.
 
 #include <algorithm>
 #include <array>
@@ -23,7 +23,7 @@ void require(bool condition) {
   if (!condition) std::abort();
 }
 
-/// Each event has its three lines, and its data are JSON.
+/// Each event must have its three lines, and its data must be JSON.
 void check_stream(std::string_view text) {
   while (!text.empty()) {
     const std::size_t end = text.find("\n\n");

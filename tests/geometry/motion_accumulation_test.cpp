@@ -68,7 +68,7 @@ TEST(AccumulatedMotion, MayBeJoinedFromParts) {
 }
 
 TEST(AccumulatedMotion, CovarianceIsThatOfSampledDrives) {
-  // Small noise, so that the first-order covariance is the covariance; 1 / sqrt(kSamples) is 0.7 %.
+  // The noise is small, so that the first-order covariance is accurate; 1 / sqrt(kSamples) is 0.7 %.
   constexpr int kSamples = 20000;
   RandomDraws draws(12);
   const MotionNoise noise = some_noise(1e-2);

@@ -11,7 +11,7 @@ constexpr int kDraws = 250;
 
 /// The motion model with every input of eq 28 free: (x, y, heading, distance, first turn, second turn, drift).
 Eigen::Vector3d moved(const Eigen::VectorXd& in) {
-  const Control control{in(3), in(4), in(5) + in(6)};  // drift adds to the last turn (SPEC I.3)
+  const Control control{in(3), in(4), in(5) + in(6)};  // drift adds to the last turn (mathematics I.3)
   return move({in(0), in(1), in(2)}, control).vector();
 }
 
@@ -41,7 +41,8 @@ TEST(MotionJacobians, AcrossTheWrapOfTheHeading) {
     expect_motion_jacobians_match({1.0, -2.0, heading_rad}, {0.7, 1e-5, -1e-5});
 }
 
-/// apply(): G by the pose, and the noise as R Q R^T, R the derivative by the body-frame motion.
+/// Tests apply(): G is the derivative by the pose, and the noise is R Q R^T, where R is the derivative by the
+/// body-frame motion.
 void expect_applied_jacobians_match(const Pose2& start, const Motion& motion) {
   const auto composed = [](const Eigen::VectorXd& in) {
     return (Pose2{in(0), in(1), in(2)} * Pose2{in(3), in(4), in(5)}).vector();

@@ -30,12 +30,12 @@ Eigen::MatrixXd numeric_jacobian(const Function& f, const Eigen::VectorXd& x,
   return jacobian;
 }
 
-/// Largest |a - b| / (1 + |b|): relative plus absolute.
+/// The largest |a - b| / (1 + |b|), a relative and absolute difference in one.
 inline double largest_difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return ((a - b).cwiseAbs().array() / (1.0 + b.cwiseAbs().array())).maxCoeff();
 }
 
-/// What analytic and numeric Jacobians must agree to.
+/// Tolerance for the difference between analytic and numeric Jacobians.
 inline constexpr double kJacobianTolerance = 1e-6;
 
 }  // namespace azimuth

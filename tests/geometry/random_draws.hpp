@@ -20,7 +20,7 @@ class RandomDraws {
   Eigen::VectorXd normals(Eigen::Index size) {
     return Eigen::VectorXd::NullaryExpr(size, [this](Eigen::Index) { return normal(); });
   }
-  /// Heading anywhere, position within a square of side 2 `extent_m`.
+  /// A pose with any heading, and a position within a square of side 2 `extent_m`.
   Pose2 pose(double extent_m) {
     return {uniform(-extent_m, extent_m), uniform(-extent_m, extent_m), uniform(-kPi, kPi)};
   }
@@ -29,7 +29,7 @@ class RandomDraws {
     return {uniform(-max_distance_m, max_distance_m), uniform(-max_turn_rad, max_turn_rad),
             uniform(-max_turn_rad, max_turn_rad)};
   }
-  /// Positive definite, standard deviations about `sigma`.
+  /// A positive definite covariance with standard deviations of about `sigma`.
   Eigen::MatrixXd covariance(Eigen::Index size, double sigma) {
     const Eigen::MatrixXd A =
         Eigen::MatrixXd::NullaryExpr(size, size, [this](Eigen::Index, Eigen::Index) { return normal(); });

@@ -8,7 +8,7 @@
 namespace azimuth {
 namespace {
 
-/// As their authors' programs give them; maps, recordings and digests hang on these bits.
+/// The numbers equal those of the authors' programs. Maps, recordings and digests depend on these bits.
 TEST(Random, GivesThePublishedWords) {
   SplitMix split(1234567);
   for (const std::uint64_t word :

@@ -7,7 +7,7 @@
 namespace azimuth {
 namespace {
 
-/// Into the tail as far as numbers reach, where only a relative error says anything.
+/// Covers the tail as far as double precision reaches, where only the relative error is meaningful.
 TEST(ComplementaryError, IsThatOfTheLibrary) {
   for (double x = -7.0; x < 26.0; x += 1.0 / 256.0)
     EXPECT_NEAR(complementary_error(x) / std::erfc(x), 1.0, 1e-14 * std::max(1.0, x)) << x;

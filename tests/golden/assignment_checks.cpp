@@ -33,7 +33,7 @@ std::vector<int> solved(const Values& values) {
   return column_of_row;
 }
 
-/// Row by row the best column that is left.
+/// Gives each row in turn the best column that is left.
 std::vector<int> greedy(const Values& values) {
   std::vector<int> column_of_row;
   for (std::size_t r = 0; r < values.rows; ++r) {
@@ -49,7 +49,7 @@ std::vector<int> greedy(const Values& values) {
   return column_of_row;
 }
 
-/// Rows whose best columns all fall below the density of something new stay without.
+/// Rows whose columns all lie below the density of a new landmark stay without a column.
 void check_with_new(const GoldenCase& golden) {
   ASSERT_EQ(golden.input.at("cost"), "log");
   const Values values = to_values(golden.input.at("Phi"), logarithm);

@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-/// The golden distances are decimal fractions: in units of 1e-4 their squares are integers, as ours are.
+/// The golden distances are decimal fractions. In units of 1e-4 their squares are integers, as NearestTwo requires.
 NearestTwo nearest_two(const json& distances, std::map<std::string, Identity>& identities, bool by_landmark) {
   NearestTwo two;
   for (const json& entry : distances) {
@@ -36,7 +36,7 @@ void check_ratio(const GoldenCase& golden) {
   EXPECT_EQ(two.nearest.identity, identities.at(golden.expected.at("nearest")));
   expect_near(two.ratio(), golden.expected.at("ratio_other_id"), golden.tolerance, "ratio");
   EXPECT_EQ(two.ratio() <= threshold, golden.expected.at("match").get<bool>());
-  // The test as printed takes another view of the same landmark for a rival.
+  // The ratio test as printed in the paper counts another view of the same landmark as a rival.
   const NearestTwo literal = nearest_two(distances, identities, /*by_landmark=*/false);
   expect_near(literal.ratio(), golden.expected.at("ratio_literal"), golden.tolerance, "literal ratio");
   EXPECT_EQ(literal.ratio() <= threshold, golden.expected.at("match_literal").get<bool>());

@@ -7,7 +7,7 @@
 namespace azimuth::golden {
 namespace {
 
-/// Farther than any direction of the cases.
+/// Larger than the angle of any direction in the cases.
 constexpr double kThetaMax_rad = 1.5;
 
 CameraModel camera_of(const nlohmann::json& input) {
@@ -22,7 +22,7 @@ void check_profile(const PajdlaFisheye& fisheye, double theta_rad, const GoldenC
               "drdtheta");
 }
 
-/// Theta is the angle from the optical axis: on it the azimuth is none.
+/// Theta is the angle from the optical axis. The azimuth is undefined on the axis.
 void check_direction(const CameraModel& camera, const Eigen::Vector2d& phi_theta, const GoldenCase& golden,
                      std::size_t i) {
   const Eigen::Vector2d expected = to_vector(golden.expected.at("uv").at(i));

@@ -1,4 +1,4 @@
-// Coloured landmarks (SPEC I.11).
+// Coloured landmarks (mathematics I.11).
 
 #include "slam/perception/colour/blobs.hpp"
 #include "slam/perception/colour/radial_line.hpp"

@@ -26,13 +26,13 @@ constexpr Stamp kTaken{std::chrono::seconds(170)}, kPutDown{std::chrono::seconds
 
 Rig rig_of(const Run& run) { return read_rig(run.rig_toml, run.rig_file).value(); }
 
-/// Samples to the stage in the order that a replay has. `map` is what is known in the end.
-std::unique_ptr<Estimator> estimator_named(std::string_view name, const Rig& rig) {
+std::unique_ptr<Estimator> estimator_of(EstimatorKind kind, const Rig& rig) {
   Configuration configuration;
-  configuration.estimator = name;
+  configuration.estimator = kind;
   return configured_estimator(rig, configuration);
 }
 
+/// Feeds the samples to the stage in the order of a replay. `map` receives the final map.
 Trajectory through_the_stage(const Run& run, const Rig& rig, SetSource& sets, std::unique_ptr<Estimator> estimator,
                              MapSnapshot* map = nullptr) {
   EstimatorStage stage(std::move(estimator), rig, {});
@@ -61,24 +61,24 @@ Trajectory through_the_stage(const Run& run, const Rig& rig, SetSource& sets, st
 
 Trajectory through_the_stage(const Run& run, const Rig& rig) {
   RecordedSets sets(run);
-  return through_the_stage(run, rig, sets, estimator_named("ekf", rig));
+  return through_the_stage(run, rig, sets, estimator_of(EstimatorKind::ekf, rig));
 }
 
-/// Landmarks with names: the run that ships.
+/// The shipped run, whose landmarks have identities.
 Trajectory lab() {
   const Run run = *load_run(test::source_folder() / "runs/lab");
   return through_the_stage(run, rig_of(run));
 }
 
-/// The same, each pose by all that was seen until then.
+/// The same run with the smoother. Each pose is the estimate at its own time.
 Trajectory smoothed_lab() {
   const Run run = *load_run(test::source_folder() / "runs/lab");
   const Rig rig = rig_of(run);
   RecordedSets sets(run);
-  return through_the_stage(run, rig, sets, estimator_named("smoother", rig));
+  return through_the_stage(run, rig, sets, estimator_of(EstimatorKind::smoother, rig));
 }
 
-/// A round of stops a metre apart, each landmark mapped only when two bearings of it cross well.
+/// A round of stops a metre apart. Each landmark is mapped only when two of its bearings cross at a sufficient angle.
 Trajectory delayed_lab() {
   const Run run = simulated_run(coloured_lab(kSeed));
   const Rig rig = rig_of(run);
@@ -87,7 +87,7 @@ Trajectory delayed_lab() {
   return through_the_stage(run, rig, sets, configured_estimator(rig, read_configuration("", "", delayed).value()));
 }
 
-/// The same kind of drive without names, with clutter: which bearing is of which landmark is found out.
+/// A drive without identities and with clutter, which needs data association.
 Trajectory nameless_lab() {
   Scenario scenario = azimuth::lab(kSeed, 2);
   scenario.sensor.identities = false;
@@ -96,7 +96,7 @@ Trajectory nameless_lab() {
   return through_the_stage(run, rig_of(run));
 }
 
-/// Features told apart by their looks.
+/// Features that differ by their descriptors.
 Trajectory features() {
   const FeatureWorld world = feature_world(kSeed);
   Rig rig = rig_of(world.run);
@@ -105,29 +105,30 @@ Trajectory features() {
   return through_the_stage(world.run, rig);
 }
 
-/// From images: coloured cylinders, rendered here.
+/// Bearings found in images of coloured cylinders, which are rendered here.
 Trajectory coloured_images() {
   const test::TemporaryFolder folder;
   const Run run = *rendered_run(coloured_lab(kSeed), {}, folder.path());
   const Rig rig = rig_of(run);
   SeenSets sets(run, rig.camera.image, {make_perception(rig.front_end, rig.camera, {}), decoded_format(rig.front_end)});
-  return through_the_stage(run, rig, sets, estimator_named("ekf", rig));
+  return through_the_stage(run, rig, sets, estimator_of(EstimatorKind::ekf, rig));
 }
 
-/// On the map of the drive before, which stays as it is; where the robot is in it has to be found first.
+/// The shipped run on its own saved map, which stays unchanged. The robot has to relocalise first.
 Trajectory localised_lab() {
   const Run run = *load_run(test::source_folder() / "runs/lab");
   const Rig rig = rig_of(run);
   MapSnapshot map;
   RecordedSets first(run), second(run);
-  through_the_stage(run, rig, first, estimator_named("ekf", rig), &map);
+  through_the_stage(run, rig, first, estimator_of(EstimatorKind::ekf, rig), &map);
   Configuration configuration;
-  configuration.estimator = "ekf";
+  configuration.estimator = EstimatorKind::ekf;
   configuration.map.mode = MapMode::localise;
   return through_the_stage(run, rig, second, configured_estimator(rig, configuration, &map));
 }
 
-/// Carried a third of a round away after two rounds among colours, and noticed, and found again.
+/// After two rounds among coloured landmarks the robot is carried by a third of a round. The estimator detects this and
+/// relocalises.
 Trajectory carried_lab() {
   constexpr int kColours = 4;
   const auto in_hand = [](Stamp stamp) { return stamp >= kTaken && stamp < kPutDown; };
@@ -153,7 +154,7 @@ Trajectory carried_lab() {
   return through_the_stage(run, rig);
 }
 
-/// `map` is what is known in the end.
+/// Returns the trajectory; `map` receives the final map.
 Trajectory below_lamps(const LampRun& run, const std::unique_ptr<Estimator>& estimator, MapSnapshot* map = nullptr) {
   Trajectory trajectory;
   Estimate estimate;
@@ -169,32 +170,32 @@ Trajectory below_lamps(const LampRun& run, const std::unique_ptr<Estimator>& est
   return trajectory;
 }
 
-Trajectory hall(std::string_view estimator_name) {
+Trajectory hall(EstimatorKind kind) {
   const LampRun run = simulated_hall(kSeed);
-  return below_lamps(run, estimator_named(estimator_name, run.rig));
+  return below_lamps(run, estimator_of(kind, run.rig));
 }
 
-/// Lamps that hang irregularly, so that one place can be told from another.
+/// The lamps hang irregularly, so that places can be told apart.
 constexpr double kOff_m = 0.8;
 
-/// On the map of the drive before, as localised_lab().
+/// A run on the map of the drive before, as in localised_lab().
 Trajectory localised_hall() {
   const LampRun run = simulated_hall(kSeed, kOff_m);
   MapSnapshot map;
-  below_lamps(run, estimator_named("lamp_ekf", run.rig), &map);
+  below_lamps(run, estimator_of(EstimatorKind::lamp_ekf, run.rig), &map);
   Configuration configuration;
-  configuration.estimator = "lamp_ekf";
+  configuration.estimator = EstimatorKind::lamp_ekf;
   configuration.map.mode = MapMode::localise;
   return below_lamps(run, configured_estimator(run.rig, configuration, &map));
 }
 
-/// Carried off after a round.
+/// The robot is carried away after a round.
 Trajectory carried_hall() {
-  constexpr int kTakenAt = 160, kPutDownAt = 230;  // images
+  constexpr int kTakenAt = 160, kPutDownAt = 230;  // numbers of images
   LampRun run = simulated_hall(kSeed, kOff_m);
   run.motions.erase(run.motions.begin() + kTakenAt, run.motions.begin() + kPutDownAt);
   run.sets.erase(run.sets.begin() + kTakenAt, run.sets.begin() + kPutDownAt);
-  return below_lamps(run, estimator_named("lamp_ekf", run.rig));
+  return below_lamps(run, estimator_of(EstimatorKind::lamp_ekf, run.rig));
 }
 
 constexpr std::array kDrives{
@@ -206,8 +207,8 @@ constexpr std::array kDrives{
     Drive{"coloured_images", coloured_images},
     Drive{"localised_lab", localised_lab},
     Drive{"carried_lab", carried_lab},
-    Drive{"hall_lamp_ekf", [] { return hall("lamp_ekf"); }},
-    Drive{"hall_fastslam", [] { return hall("fastslam"); }},
+    Drive{"hall_lamp_ekf", [] { return hall(EstimatorKind::lamp_ekf); }},
+    Drive{"hall_fastslam", [] { return hall(EstimatorKind::fastslam); }},
     Drive{"localised_hall", localised_hall},
     Drive{"carried_hall", carried_hall},
 };

@@ -1,5 +1,5 @@
 #pragma once
-// The drives whose trajectories are kept: each is shipped, or made here from a seed.
+// The drives whose trajectories are kept. Each drive is shipped, or generated here from a seed.
 
 #include <ostream>
 #include <span>
@@ -10,13 +10,12 @@
 namespace azimuth::golden {
 
 struct Drive {
-  std::string_view name;  ///< of its file, trajectories/NAME.txt
-  /// Every step, with the settings and the estimator that somebody gets who sets none, as far as the name does not say
-  /// otherwise.
+  std::string_view name;  ///< Name of its file, trajectories/NAME.txt
+  /// Returns every step. Settings and estimator have their default values unless the name says otherwise.
   Trajectory (*run)();
 };
 
-/// For GoogleTest, which names the case.
+/// GoogleTest prints the name of a failing case with this function.
 inline void PrintTo(const Drive& drive, std::ostream* out) { *out << drive.name; }
 
 std::span<const Drive> drives();

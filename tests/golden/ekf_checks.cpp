@@ -14,7 +14,7 @@ void check_clone(const GoldenCase& golden) {
   const std::array blocks{BlockKind::scalar};
   BuiltState built = build_state(to_vector(golden.input.at("x")), to_matrix(golden.input.at("P")), blocks);
   const Index clone = built.state.clone_robot();
-  // Golden order: robot, clone, what was there before.
+  // The golden file's order: robot, clone, all earlier entries.
   const std::array<Index, 7> order{0, 1, 2, clone, clone + 1, clone + 2, built.entries[3]};
   expect_near(mean_of(built.state, order), to_vector(golden.expected.at("x")), golden.tolerance, "x");
   expect_near(covariance_of(built.state, order), to_matrix(golden.expected.at("P")), golden.tolerance, "P");

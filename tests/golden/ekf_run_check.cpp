@@ -1,5 +1,5 @@
-// Whole steps of SPEC I.2 through the estimator, in the golden file's order of the state: robot, clones newest first,
-// landmarks by identity.
+// Runs whole steps of mathematics I.2 through the estimator, with the state in the golden file's order: robot, clones
+// from the newest to the oldest, landmarks by identity.
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace azimuth::golden {
 namespace {
 
-/// The specification's plain filter: identities known, no gate, no noise floors, no safeguards.
+/// The plain filter of mathematics part I: identities are known, and there are no gates, noise floors or safeguards.
 EkfSettings plain_settings(double kl_threshold) {
   EkfSettings settings;
   settings.initialisation = Initialisation::delayed;
@@ -64,7 +64,7 @@ BearingSet bearings_of(const nlohmann::json& step) {
   return set;
 }
 
-/// The blocks of the state under the golden file's names, in its order.
+/// The blocks of the state with the golden file's names, in its order.
 struct NamedEntries {
   std::vector<std::string> names{"v"};
   std::vector<Index> entries{0, 1, 2};
@@ -115,7 +115,7 @@ void check_step(const EkfEstimator& estimator, const nlohmann::json& expected, d
 void check_ekf_run(const GoldenCase& golden) {
   const auto& input = golden.input;
   EkfEstimator estimator(rig_of(input), plain_settings(input.at("kl_thr")));
-  // The estimator starts at the origin, known exactly: an exact motion brings it to x0.
+  // The estimator starts at the origin without uncertainty, so an exact motion brings it to x0.
   ASSERT_TRUE(to_matrix(input.at("P0")).isZero());
   Motion to_start;
   to_start.T_start_end = to_pose(input.at("x0"));

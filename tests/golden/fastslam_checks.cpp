@@ -45,7 +45,7 @@ void expect_proposal(const PoseProposal& proposal, const json& expected, double 
   expect_near(proposal.covariance().matrix(), to_matrix(expected.at("Sigma")), tolerance, what);
 }
 
-/// Rays of a candidate that is seen from one pose after the other.
+/// The rays of a candidate that is seen from one pose after the other.
 std::vector<Ray> rays_of(const json& input, const std::vector<LampSighting>& sightings) {
   std::vector<Ray> rays;
   for (std::size_t i = 0; i < sightings.size(); ++i)
@@ -97,7 +97,7 @@ void check_alg3(const GoldenCase& golden) {
   for (std::size_t step = 0; step < golden.expected.at("relinearised").size(); ++step) {
     const json& expected = golden.expected.at("relinearised").at(step);
     const json& expected_linear = golden.expected.at("linear_at_xhat").at(step);
-    const std::size_t j = expected.at("landmark"), l = j;  // the pairs of this case
+    const std::size_t j = expected.at("landmark"), l = j;  // the cases pair sighting l with landmark j = l
     ASSERT_EQ(golden.input.at("pairs").at(l).at(1), j);
     relinearised.add_relinearised(scene.positions[j], scene.covariances[j], scene.sightings[l], scene.height_m);
     expect_proposal(relinearised, expected, golden.tolerance, "relinearised");

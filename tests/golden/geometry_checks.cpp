@@ -16,7 +16,7 @@ Eigen::Vector3d vector_of(const Control& control) {
   return {control.distance_m, control.first_turn_rad, control.second_turn_rad};
 }
 
-/// The noise of the paper's parameter set, `sigma` per metre and degrees per full turn (SPEC I.3).
+/// The noise of a parameter set of the paper, with `sigma_m` per metre and `sigma_deg` per full turn (mathematics I.3).
 MotionNoise paper_noise(double sigma_m, double sigma_deg) {
   MotionNoise noise;
   noise.lambda_distance_m = sigma_m * sigma_m;
@@ -36,7 +36,7 @@ void check_lambda_units(const GoldenCase& golden) {
   expect_near(drive_m, golden.expected.at("std_1m_set1"), golden.tolerance, "1 m drive");
 }
 
-/// The second paper's table of errors agrees with its own summary.
+/// Checks that the second paper's table of errors agrees with its own summary.
 void check_table1(const GoldenCase& golden) {
   const auto errors = golden.expected.at("errors").get<std::vector<double>>();
   const ErrorStatistics statistics = error_statistics(errors);
@@ -82,7 +82,7 @@ void check_motion(const GoldenCase& golden) {
   const Eigen::Matrix3d P = to_matrix(golden.input.at("P"));
   expect_near(jacobians.G * P * jacobians.G.transpose() + Q, to_matrix(expected.at("P1")), golden.tolerance, "P1");
 
-  // The same step by way of the accumulated motion, as the estimator takes it.
+  // The same step through the accumulated motion, as the estimator computes it.
   Motion motion;
   append(motion, control, control, noise);
   const MovedPose moved = apply(start, motion);

@@ -1,6 +1,6 @@
 #pragma once
-// Reference values computed outside of this program from the formulas of the specification (golden.json). Numbers
-// agree when they differ by at most `tolerance` relative plus absolute.
+// Reference values computed outside of this program from the formulas of docs/mathematics.md (golden.json). Numbers
+// agree if they differ by at most `tolerance`, relative plus absolute.
 
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
@@ -21,19 +21,19 @@ struct GoldenCase {
   double tolerance = 0.0;
 };
 
-/// For GoogleTest, which names the case when it fails.
+/// GoogleTest prints the name of a failing case with this operator.
 std::ostream& operator<<(std::ostream& out, const GoldenCase& golden);
 
-/// All cases of the file, read once; empty when it cannot be read.
+/// All cases of the file, which is read once. Empty if the file cannot be read.
 const std::vector<GoldenCase>& golden_cases();
 
 Eigen::VectorXd to_vector(const nlohmann::json& numbers);
 Eigen::MatrixXd to_matrix(const nlohmann::json& rows);
-/// From [x, y, heading].
+/// Converts [x, y, heading].
 Pose2 to_pose(const nlohmann::json& numbers);
 std::vector<Eigen::Vector2d> to_points(const nlohmann::json& rows);
 
-/// Adds a test failure naming `what` when the values differ in shape or by more than the tolerance.
+/// Adds a test failure with the name `what` if the values differ in shape or by more than the tolerance.
 void expect_near(const Eigen::MatrixXd& actual, const Eigen::MatrixXd& expected, double tolerance,
                  std::string_view what);
 void expect_near(double actual, double expected, double tolerance, std::string_view what);

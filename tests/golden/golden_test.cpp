@@ -1,5 +1,4 @@
-// Every case of golden.json is one test. A kind that no check knows fails: a new reference value must not be
-// overlooked.
+// Every case of golden.json is one test. A case of an unknown kind fails, so that no new reference value is overlooked.
 
 #include <algorithm>
 #include <array>

@@ -18,7 +18,7 @@ BuiltState build_state(const Eigen::VectorXd& mean, const Eigen::MatrixXd& covar
   BuiltState built{JointState({mean(0), mean(1), mean(2)}, covariance.topLeftCorner<3, 3>()), {}};
   append_entries(built.entries, JointState::kPose, 3);
   for (const BlockKind kind : blocks) {
-    // The block given all before it: mean J x and independent noise, J = P_bx P_xx^+.
+    // The block is conditioned on all blocks before it: mean J x and independent noise, with J = P_bx P_xx^+.
     const auto before = static_cast<Index>(built.entries.size());
     const Index size = size_of(kind);
     const Eigen::MatrixXd P_xx = covariance.topLeftCorner(before, before);

@@ -1,5 +1,5 @@
 #pragma once
-// Puts a JointState into a given mean and covariance through its public interface.
+// Builds a JointState with a given mean and covariance through its public interface.
 
 #include <Eigen/Core>
 #include <span>
@@ -9,10 +9,10 @@
 
 namespace azimuth::golden {
 
-/// A joint state whose entries 0 to 2 are the robot and whose further blocks, in order, have the given kinds.
+/// A joint state. Entries 0 to 2 are the robot, and the further blocks have the given kinds, in order.
 struct BuiltState {
   JointState state;
-  std::vector<Index> entries;  ///< where entry i of `mean` is
+  std::vector<Index> entries;  ///< Entry in the state for each entry i of `mean`
 };
 
 /// `covariance` must be positive semi-definite.

@@ -88,7 +88,7 @@ std::vector<std::string> differences(const Trajectory& expected, const Trajector
   for (std::size_t i = 0; i < std::min(expected.size(), got.size()); ++i) {
     if (expected[i].step != got[i].step) {
       out.push_back(fmt::format("step {} expected, got step {}", expected[i].step, got[i].step));
-      break;  // another number of steps: no line after this one is of the same instant
+      break;  // the steps differ, so all following lines belong to different instants
     }
     compare(expected[i], got[i], out);
   }

@@ -1,5 +1,5 @@
 #pragma once
-// A trajectory as text that can be reviewed line by line: what an estimator said at some dozens of steps of a drive.
+// A trajectory as text that can be reviewed line by line: an estimator's output at some dozens of steps of a drive.
 
 #include <array>
 #include <cstddef>
@@ -12,11 +12,11 @@
 
 namespace azimuth::golden {
 
-/// The numbers of a line, in the order of its columns.
+/// The quantities of a line, in the order of its columns.
 inline constexpr std::array<std::string_view, 8> kQuantities{
     "t_s", "x_m", "y_m", "heading_rad", "sigma_x_m", "sigma_y_m", "sigma_heading_rad", "landmarks"};
 
-/// What an estimate said at one step, counted from 1.
+/// The estimate at one step; steps are counted from 1.
 struct Waypoint {
   std::size_t step = 0;
   std::array<double, kQuantities.size()> numbers{};
@@ -26,17 +26,17 @@ using Trajectory = std::vector<Waypoint>;
 
 Waypoint waypoint(std::size_t step, const Estimate& estimate);
 
-/// Some dozens of it, evenly spread, the first and the last included, and every one at which health is another.
+/// Selects some dozens of steps: evenly spaced ones, the first, the last, and every step at which health changes.
 Trajectory thinned(const Trajectory& every_step);
 
-/// A header and a line for each waypoint; nine decimals.
+/// Writes a header and a line for each waypoint, with nine decimals.
 std::string to_text(const Trajectory& trajectory);
-/// Nothing when `text` is not as to_text() writes it.
+/// Returns nullopt when `text` does not have the format of to_text().
 std::optional<Trajectory> from_text(std::string_view text);
 
-/// What is not the same to kTolerance, a sentence each: step, quantity, what was expected, what it is.
+/// One sentence for each difference beyond kTolerance, with the step, the quantity, the expected and the actual value.
 std::vector<std::string> differences(const Trajectory& expected, const Trajectory& got);
-/// Wider than what rounding does: processors with fused multiply-add round differently from those without.
+/// Wider than rounding differences: processors with fused multiply-add round differently from those without.
 inline constexpr double kTolerance = 1e-6;
 
 }  // namespace azimuth::golden

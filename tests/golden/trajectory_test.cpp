@@ -1,5 +1,5 @@
-// What the estimators say of some drives, step by step: a change that was not meant shows here, and one that was meant
-// shows as lines to review. scripts/refresh-golden writes the files anew.
+// The estimators' trajectories of some drives. An unintended change fails here, and an intended one appears as lines to
+// review. scripts/refresh-golden writes the files anew.
 
 #include <algorithm>
 #include <cstdlib>
@@ -27,7 +27,8 @@ std::string content(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// An answer that agrees already stays as it is, last digits included: what changes is what there is to review.
+/// A trajectory that still agrees within the tolerance keeps its file unchanged, so that only real changes need a
+/// review.
 void refresh(const Drive& drive, const Trajectory& got) {
   const auto before = from_text(content(file_of(drive)));
   if (before && differences(*before, got).empty()) return;
@@ -100,7 +101,7 @@ TEST(Trajectory, HealthIsCompared) {
 
 TEST(Trajectory, AHeadingThatIsAWholeTurnOffIsTheSame) {
   Trajectory got = three_steps();
-  got[0].numbers[3] = -3.1415927;  // the same direction to 1e-7, beyond the seam
+  got[0].numbers[3] = -3.1415927;  // the same direction within 1e-7, across the wrap
   EXPECT_TRUE(differences(three_steps(), got).empty());
 }
 

@@ -1,20 +1,20 @@
 #!/usr/bin/env python3
-"""Boots the QEMU guest of build_image, lets it run IN/run and brings back what came of it.
+"""Boots the QEMU guest of build_image, runs IN/run in it and copies the results back.
 
 usage: boot.py IN OUT [--limit SECONDS] [--images FOLDER] [--arch ARCH] [--keep]
-  IN      what the guest sees below /mnt/in, read-only; IN/run is executed there as root
-  OUT     what it sees below /mnt/out: log, exit_code, dmesg, journal, and whatever IN/run leaves; console is the kernel's
-  --arch  amd64 or arm64: what the guest is
-  --keep  what the guest changes on its disk stays
+  IN      folder that the guest mounts read-only at /mnt/in; it runs IN/run as root
+    OUT     folder of the guest's /mnt/out: log, exit_code, dmesg, journal and the files of IN/run; console is that of the kernel
+    --arch  architecture of the guest: amd64 or arm64
+    --keep  keeps the changes of the guest's disk
 
-Exit code: that of IN/run; 125 when the guest did not come that far.
+Exit code: that of IN/run; 125 if the guest did not run it.
 
 The guest is emulated (no KVM), with two CPUs, and has
-  a serial adapter  an FTDI on a USB bus, /dev/ttyUSB0; the other end of its line is /dev/virtio-ports/robot, by way of
-                    this program: what is sent while the adapter is out is lost, as on a real line
+  a serial adapter  an FTDI on a USB bus, /dev/ttyUSB0; this program connects its line to /dev/virtio-ports/robot. Bytes
+                      that are sent while the adapter is unplugged are lost, as on a real line
   two CAN cards     Kvaser (SJA1000) on one bus, can0 and can1
-  a way to ask      lines on /dev/virtio-ports/host, answered by one line each: `unplug` and `plug` the serial adapter,
-                    `mute` and `speak` on its line
+  a control port    /dev/virtio-ports/host takes commands, one per line, and answers each with a line: `unplug` and `plug`
+                      the serial adapter, `mute` and `speak` on its line
 """
 
 import argparse
@@ -31,16 +31,16 @@ NOT_FINISHED = 125
 
 @dataclass(frozen=True)
 class Machine:
-    """What QEMU emulates of one architecture."""
+    """The emulated machine of one architecture."""
     command: list
-    threads: str  # of QEMU's: one for each processor of the guest, or one for all
+    threads: str  # threading of QEMU: one thread for each processor of the guest, or one for all
     clock: list
     console: str
     kernel_options: str = ""
 
 
-# The clock of arm64 goes by the instructions that its processors execute, a billion a second, however long that takes here.
-# If it went by ours, that machine would be too slow for cameras and watchdogs whenever this one has something else to do.
+# The clock of the arm64 guest counts executed instructions, 10^9 per second, independently of the time on the host.
+# With the host's clock, the guest would be too slow for cameras and watchdogs whenever the host is busy.
 MACHINES = {
     "amd64": Machine(["qemu-system-x86_64", "-cpu", "Nehalem", "-machine", "q35"], "multi", [], "ttyS0", "tsc=reliable"),
     "arm64": Machine(["qemu-system-aarch64", "-cpu", "cortex-a72", "-machine", "virt"], "single", ["-icount", "shift=0"],
@@ -71,8 +71,8 @@ def qemu_command(options, sockets):
         return [*line(name), "-device", f"virtserialport,chardev={name},name={name}"]
 
     machine = MACHINES[options.arch]
-    # norandmaps: QEMU keeps what it translated by virtual address. A program that lies elsewhere each time it starts is
-    # translated anew each time, which takes a second and is no real machine's.
+    # norandmaps: QEMU caches translated code by virtual address. With address randomisation it would translate a
+    # program again at every start, which takes a second.
     return [
         *machine.command, "-accel", f"tcg,thread={machine.threads},tb-size=512", *machine.clock,
         "-smp", "2", "-m", "2048", "-nodefaults", "-no-user-config", "-display", "none", "-nic", "none", "-no-reboot",
@@ -99,7 +99,7 @@ async def connect(path):
 
 
 class Monitor:
-    """QEMU's control channel."""
+    """The control channel of QEMU (QMP)."""
 
     def __init__(self, reader, writer):
         self.reader, self.writer = reader, writer
@@ -119,7 +119,7 @@ class Adapter:
         self.monitor, self.carries, self.plugged = monitor, True, False
 
     async def plug(self):
-        """For the guest an adapter is gone a moment before QEMU has let go of it."""
+        """Plugs the adapter in; retries, because QEMU releases an unplugged adapter later than the guest."""
         self.plugged = True
         for _ in range(50):
             answer = await self.monitor.run("device_add", driver="usb-serial", id="adapter0", chardev="adapter",
@@ -141,7 +141,7 @@ class Adapter:
 
 
 async def serve(reader, writer, adapter):
-    """Answers what the guest asks."""
+    """Answers the commands of the guest."""
     while line := await reader.readline():
         request = line.decode(errors="replace").strip()
         answer = {}

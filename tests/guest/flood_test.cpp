@@ -58,7 +58,7 @@ TEST(RandomCanFrame, KnowsWhenNothingIsLeft) {
   EXPECT_FALSE(leaves_identifiers({.first_id = 5, .last_id = 4, .spared = {}}));
   EXPECT_FALSE(leaves_identifiers({.first_id = 5, .last_id = 6, .spared = {5, 6}}));
   EXPECT_FALSE(leaves_identifiers({.first_id = 0, .last_id = CAN_EFF_MASK + 1, .spared = {}}));
-  // Of 11 bits only what is spared, of 29 more.
+  // The range has one spared identifier of 11 bits, and one free identifier of 29 bits.
   EXPECT_FALSE(leaves_identifiers({.first_id = 0x7ff, .last_id = 0x800, .spared = {0x7ff}}));
 }
 

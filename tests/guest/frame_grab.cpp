@@ -1,4 +1,5 @@
-// frame_grab: images of a camera as the daemon would read them, a line each. `frame_grab --help` says how.
+// frame_grab reads images of a camera with the daemon's drivers and prints one line per image. `frame_grab --help`
+// describes it.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -17,7 +18,7 @@
 #include "drivers/iidc/iidc_stream.hpp"
 #include "drivers/v4l2/v4l2_stream.hpp"
 #include "settings/reader.hpp"
-#include "sim/usb_camera/wire_image.hpp"
+#include "tests/equipment/usb_camera/wire_image.hpp"
 
 namespace {
 
@@ -32,7 +33,8 @@ struct GrabWords {
   bool until_failed = false;
 };
 
-/// "mode=auto" is the kind's own table's, "camera.silent_s=2" that of another one under [daemon].
+/// Applies the assignments. "mode=auto" belongs to the table of the camera's kind, "camera.silent_s=2" to another table
+/// under [daemon].
 bool apply(const GrabWords& words, azimuth::DaemonSettings& settings) {
   std::vector<azimuth::Section> sections = azimuth::daemon_sections(settings);
   const std::vector<azimuth::Section*> tables = azimuth::pointers(sections);
@@ -52,7 +54,7 @@ azimuth::StreamOpener opener(const std::string& kind, const azimuth::DaemonSetti
   return [v4l2 = settings.live.v4l2] { return azimuth::open_v4l2(v4l2); };
 }
 
-/// The first bytes as a number, by which emulated cameras tell their images apart.
+/// The first four bytes of the image as a number, in which emulated cameras count their images.
 std::uint32_t number_of(const azimuth::Frame& frame) {
   std::uint32_t number = 0;
   for (std::size_t i = 0; i < 4 && i < frame.bytes().size(); ++i)
@@ -60,14 +62,14 @@ std::uint32_t number_of(const azimuth::Frame& frame) {
   return number;
 }
 
-/// Whether these are the bytes of a test image, all of them: a pattern goes by places, whatever the layout.
+/// True if all bytes are those of a test image. The pattern depends on the byte position only, not on the layout.
 bool is_whole_pattern(const azimuth::Frame& frame) {
   const azimuth::sim::WireShape shape{azimuth::sim::WireFormat::grey, static_cast<int>(frame.bytes().size()), 1};
   const auto* const first = reinterpret_cast<const std::uint8_t*>(frame.bytes().data());
   return azimuth::sim::check_pattern(shape, {first, frame.bytes().size()}).has_value();
 }
 
-/// The same for the same bytes, and hardly so for others.
+/// A hash of the bytes of the image.
 std::size_t digest_of(const azimuth::Frame& frame) {
   const auto* const first = reinterpret_cast<const char*>(frame.bytes().data());
   return std::hash<std::string_view>{}({first, frame.bytes().size()});

@@ -1,6 +1,6 @@
-// azimuthd whose estimator hangs for ever in its next update once somebody has made the file that the environment
-// variable AZIMUTH_HANG_FILE names (else /run/azimuth/hang). It deletes the file first, so that the process that is
-// started instead goes on.
+// A variant of azimuthd whose estimator hangs for ever in an update if the file in the environment variable
+// AZIMUTH_HANG_FILE (default /run/azimuth/hang) exists. It deletes the file first, so that the restarted process does
+// not hang again.
 
 #include <chrono>
 #include <cstdlib>

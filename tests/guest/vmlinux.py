@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Takes the ELF kernel out of a bzImage whose payload is compressed with xz, as Debian's is.
+"""Extracts the ELF kernel from a bzImage whose payload is compressed with xz, as in Debian.
 
 usage: vmlinux.py BZIMAGE VMLINUX
 """

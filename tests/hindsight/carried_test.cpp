@@ -1,4 +1,5 @@
-// What tells that a robot is carried: what was seen a moment ago, and what moves while the wheels stand still.
+// Evidence that a robot is being carried: landmarks seen a moment ago that are missing, and bearings that move while
+// the wheels stand still.
 
 #include <gtest/gtest.h>
 #include <vector>
@@ -30,7 +31,7 @@ TEST(NamesSeen, AreDueInTheNextImages) {
   EXPECT_TRUE(seen.is_due(0, 0.0));
   EXPECT_TRUE(seen.is_due(1, 1.0));
   EXPECT_FALSE(seen.is_due(2, 0.0));
-  EXPECT_FALSE(seen.is_due(0, 2.0));  // driven on
+  EXPECT_FALSE(seen.is_due(0, 2.0));  // too far from the place of the sighting
 }
 
 TEST(NamesSeen, AreForgottenAfterThreeImages) {
@@ -54,7 +55,7 @@ TEST(NamesSeen, AreMissedInThreeImagesAtMost) {
   EXPECT_TRUE(seen.is_due(0, 0.0));
 }
 
-/// A robot that stands, with an image every 0.2 s.
+/// A robot at standstill, with an image every 0.2 s.
 struct Standing {
   RestWatch watch{true};
   double at_s = 0.0;
@@ -102,7 +103,7 @@ TEST(RestWatch, AllowsForImagesThatAreLate) {
     robot.watch.predict(motion);
     robot.see(0.2 * i);
   }
-  for (int i = 10; i < 14; ++i) robot.see(0.2 * i);  // images of the turn, when odometry has ended it
+  for (int i = 10; i < 14; ++i) robot.see(0.2 * i);  // images taken during the turn arrive after odometry has ended it
   robot.see(2.6, 20);
   EXPECT_FALSE(robot.watch.is_carried());
 }
@@ -113,7 +114,8 @@ TEST(RestWatch, DoesNotMindALandmarkThatIsMoved) {
   EXPECT_FALSE(watch.is_carried());
 }
 
-/// Twelve landmarks all round without names, of which each image misses two, and shows one thing that is none.
+/// An image of twelve landmarks all round without identities. Each image misses two landmarks and contains one clutter
+/// bearing.
 BearingSet unnamed_image(int number, double turned_rad) {
   std::vector<double> azimuths_rad;
   for (int i = 0; i < 12; ++i)

@@ -1,4 +1,4 @@
-// How uncertain the landmarks of a large map are, computed in turn.
+// The covariances of the landmarks of a large map, which are computed in turn.
 
 #include "slam/hindsight/landmark_covariances.hpp"
 
@@ -62,16 +62,16 @@ TEST(LandmarkCovariances, OfManyAreComputedInTurn) {
   Crowd crowd(LandmarkCovariances::kEachTime + 20);
   const HindsightLandmark &first = crowd.landmarks.front(), &last = crowd.landmarks.back();
   LandmarkCovariances covariances;
-  // GIVEN a turn that the last one has not come to
+  // GIVEN a turn that does not include the last landmark
   covariances.refresh(crowd.landmarks, crowd.smoother);
   const Eigen::Matrix2d before = crowd.smoother.point_covariance(first.in_graph);
   crowd.go_on();
   const Eigen::Matrix2d now = crowd.smoother.point_covariance(first.in_graph);
   ASSERT_LT(now.determinant(), before.determinant());
-  // THEN that one is computed when it is asked for, and the first one stays as it was
+  // THEN the last landmark's covariance is computed on request, and the first one's is still that of the turn
   EXPECT_EQ(covariances.of(last, crowd.smoother), crowd.smoother.point_covariance(last.in_graph));
   EXPECT_EQ(covariances.of(first, crowd.smoother), before);
-  // AND an image later it is as of that image
+  // AND one image later the first covariance is that of the new image
   covariances.refresh(crowd.landmarks, crowd.smoother);
   EXPECT_EQ(covariances.of(first, crowd.smoother), now);
 }

@@ -1,4 +1,4 @@
-// Drives that last longer than what is kept of them.
+// Drives that are longer than the number of images the smoother keeps.
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -29,13 +29,13 @@ void expect_within(const HindsightDrive::Errors& limits, const HindsightDrive::E
 }
 
 TEST(LongDrive, AFewOfItsImagesAreEnoughToGoBy) {
-  // GIVEN some minutes in a hall, and back where it began
+  // GIVEN a drive of some minutes in a hall, back to its start
   const Scenario scenario = large_hall(1, 5.0, {.landmarks = 60, .side_m = 16.0, .lane_m = 5.0});
   // WHEN no more than 150 of some 700 images are kept
   HindsightDrive drive(scenario, keeping(150));
   while (!drive.done()) drive.hear_s();
   EXPECT_LE(drive.graph().poses(), 150);
-  // THEN a fifth of the bearings are enough, and what is said of the error holds
+  // THEN a fifth of the bearings is enough, and the covariance agrees with the error
   expect_within({.rmse_m = 0.065, .anees = 3.6}, drive.online());
   expect_within({.rmse_m = 0.05, .anees = 5.0}, drive.hindsight());
 }
@@ -45,10 +45,10 @@ TEST(ManyStarts, FromItsOwnMapMakeItNoSurerThanItIs) {
   constexpr double kMinutes = 5.0;
   double anees = 0.0, restarted_anees = 0.0;
   for (int seed = 1; seed <= kSeeds; ++seed) {
-    // GIVEN a drive round and round a lab, and the same one with a daemon that is killed every twenty images
+    // GIVEN a long drive round a lab, and the same drive with a daemon that is killed every twenty images
     const Scenario scenario = long_lab(static_cast<std::uint64_t>(seed), kMinutes);
     HindsightDrive drive(scenario, keeping(200)), restarted(scenario, keeping(200));
-    // WHEN it starts from its map each time
+    // WHEN the daemon starts from its map each time
     int starts = 0;
     for (int image = 1; !drive.done(); ++image) {
       drive.hear_s();
@@ -62,17 +62,17 @@ TEST(ManyStarts, FromItsOwnMapMakeItNoSurerThanItIs) {
     anees += without.anees / kSeeds;
     restarted_anees += with.anees / kSeeds;
   }
-  // THEN what is said of the pose is true: one for each of x, y and heading
+  // THEN the pose's covariance agrees with the error (ideal ANEES: 3, one for each of x, y and heading)
   fmt::print("mean ANEES {:.1f}, without starts {:.1f}\n", restarted_anees, anees);
   EXPECT_LT(restarted_anees, 3.0);
 }
 
 TEST(LongDrive, AnImageCostsNoMoreLaterOn) {
-  // GIVEN a quarter of an hour round and round a lab, of which little more than the last minute can be kept
+  // GIVEN a drive of a quarter of an hour round a lab, of which little more than the last minute can be kept
   HindsightDrive drive(long_lab(1, 15.0), keeping(200));
   std::vector<double> costs_s;
   while (!drive.done()) costs_s.push_back(drive.hear_s());
-  // THEN an image of the last five minutes costs hardly more than one of the second five, and the map stays where it is
+  // THEN an image of the last five minutes costs hardly more than one of the second five, and the map does not drift
   constexpr std::ptrdiff_t some = 1500;
   const double then_s = median({costs_s.begin() + some, costs_s.begin() + 2 * some});
   const double now_s = median({costs_s.end() - some, costs_s.end()});
@@ -82,7 +82,7 @@ TEST(LongDrive, AnImageCostsNoMoreLaterOn) {
 }
 
 TEST(LongDrive, HundredsOfPriorsDoNotBendIt) {
-  // GIVEN a drive along the wall of a large hall, where all landmarks are begun at the edge of what is in view
+  // GIVEN a drive along the wall of a large hall, where all landmarks are initialised at the edge of the view
   HindsightDrive drive(large_hall(6, 3.2), keeping(1500));
   while (to_seconds(drive.next()) < 190.0) drive.hear_s();
   expect_within({.rmse_m = 0.2, .anees = 2.4}, drive.online());

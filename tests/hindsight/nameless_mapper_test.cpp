@@ -76,11 +76,11 @@ TEST(NamelessMapper, GoesOnFromWhereTheRobotIsPut) {
   }
   const std::size_t landmarks = mapper.landmarks().size();
 
-  // Odometry has seen nothing of it.
+  // The robot is carried back, and odometry does not notice.
   const Pose2 T_map_world = mapper.pose().T_map_body * inverse(on_circle(kImages - 1));
   const Pose2 there = T_map_world * on_circle(kImages - kAgo);
   mapper.place({there, 1e-3 * Eigen::Matrix3d::Identity()});
-  EXPECT_LT((inverse(there) * mapper.pose().T_map_body).position().norm(), 0.01);  // in the mean of all members
+  EXPECT_LT((inverse(there) * mapper.pose().T_map_body).position().norm(), 0.01);  // mean over all members
   for (int i = 0; i < kAgo; ++i) {
     const int at = kImages - kAgo + i;
     if (i > 0) mapper.predict(world.motion(on_circle(at - 1), on_circle(at)));

@@ -1,4 +1,4 @@
-// The smoother behind the interface that all estimators have.
+// The smoother behind the common estimator interface.
 
 #include "slam/hindsight/smoother_estimator.hpp"
 
@@ -90,7 +90,7 @@ TEST(SmootherEstimator, ACameraThatIsTurnedSeesTheSameMap) {
   other.run(turned);
   EXPECT_LT((drive.last().T_map_body.vector() - other.last().T_map_body.vector()).norm(), 1e-6);
   ASSERT_FALSE(other.last().accepted.empty());
-  // Sightings are told as the camera had them.
+  // Published sightings carry the azimuths in the camera's frame.
   const AcceptedSighting& seen = other.last().accepted.front();
   bool found = false;
   for (const BearingSet& set : turned.bearings)
@@ -134,7 +134,9 @@ TEST(SmootherEstimator, LooksAheadByOdometryAlone) {
 
 TEST(SmootherEstimator, SavesTheMapThatItPublishes) {
   const Scenario scenario = short_lab();
-  HindsightSettings exact;  // the scale's error is published, and not saved: the next map would have it twice
+  // The scale's error is part of the published covariance but not of the saved one, so that the next map does not count
+  // it twice.
+  HindsightSettings exact;
   exact.consider_distance = false;
   Drive drive(scenario, exact);
   drive.run(simulate(scenario));
@@ -179,7 +181,7 @@ TEST(SmootherEstimator, WithoutNamesItLooksAtNone) {
   for (const LandmarkEstimate& landmark : named.last().landmarks) EXPECT_EQ(landmark.identity, kUnknownIdentity);
 }
 
-/// What is measured from an instant on.
+/// The samples of the world from an instant on.
 World rest_of(const World& world, Stamp from) {
   World rest = world;
   std::erase_if(rest.bearings, [&](const BearingSet& set) { return set.stamp < from; });

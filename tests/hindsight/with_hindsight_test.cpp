@@ -1,4 +1,4 @@
-// A filter, and what it has learnt of the past.
+// A filter with estimates of its past poses.
 
 #include "slam/hindsight/with_hindsight.hpp"
 
@@ -36,10 +36,10 @@ struct FilterDrive {
 
   EstimatorStage stage;
   Estimate last;
-  std::vector<PathPose> poses;  // as they were said at the time
+  std::vector<PathPose> poses;  // as estimated at the time
 };
 
-/// Root mean square distance from the truth, in the frame of the first pose.
+/// The root mean square position error, in the frame of the first pose.
 template <class Pose>
 double rmse_m(const World& world, const std::vector<Pose>& poses) {
   const Pose2 T_world_map = true_pose(world, world.bearings.front().stamp);

@@ -1,5 +1,5 @@
-"""What strangers make to hurt: no input below 1 MB takes more than 5 s of a processor or 300 MB, ends a program by a
-signal, or reaches the terminal as anything but text.
+"""Gives hostile inputs to the programs. No input below 1 MB may take more than 5 s of CPU time or 300 MB of memory, end
+a program by a signal, or write control characters to the terminal.
 
 usage: hostile_test.py AZIMUTH AZIMUTHD RUNS_FOLDER texts|bombs|images|logs|tables|mutants|interrupts [COUNT [FIRST]]
 """
@@ -21,8 +21,8 @@ import made_files as made
 
 MOST_CPU_S = 5.0
 MOST_MB = 300
-LONGEST_REPLAY_S = 20.0  # a shipped run that lost its names is work for its estimator
-WALL_S = 240  # of a machine with other work
+LONGEST_REPLAY_S = 20.0  # an estimator needs long for the shipped run without identities
+WALL_S = 240  # wall-clock limit, generous for a busy machine
 LARGEST_INPUT = 1 << 20
 LONGEST_OUTPUT = 2_000_000
 
@@ -46,7 +46,7 @@ class Trials:
         return path
 
     def run_of(self, name, **files):
-        """A copy of runs/lab with other files in it."""
+        """Makes a copy of runs/lab with some files replaced."""
         folder = self.folder / name
         shutil.copytree(self.runs / "lab", folder)
         for file, content in files.items():
@@ -59,7 +59,7 @@ class Trials:
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
     def measured(self, command):
-        """(exit code, output, CPU seconds, MB)."""
+        """Runs a command; returns (exit code, output, CPU time [s], peak memory [MB])."""
         with tempfile.TemporaryFile() as output:
             process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=output, stderr=output,
                                        cwd=self.folder, preexec_fn=self.limited)
@@ -103,11 +103,11 @@ class Trials:
         return output.decode(errors="replace")
 
     def reads_recording(self, path):
-        """All that takes recordings."""
+        """Runs all commands that read a recording."""
         self.azimuth_does("replay", path)
         self.azimuth_does("check", path)
-        self.azimuth_does("convert", path, self.folder / "converted", "--force")
-        self.azimuth_does("convert", path, self.folder / "converted.lcmlog", "--force")
+        self.azimuth_does("import", path, self.folder / "converted", "--force")
+        self.azimuth_does("import", path, self.folder / "converted.lcmlog", "--force")
         self.azimuth_does("export", path, "poses.csv")
         self.daemon_checks("--play", path)
 
@@ -141,7 +141,7 @@ def deep_texts():
 
 def texts(trials):
     log = trials.folder / "lab.lcmlog"
-    trials.azimuth_does("convert", trials.runs / "lab", log, answers=(0,))
+    trials.azimuth_does("import", trials.runs / "lab", log, answers=(0,))
     whole = log.read_bytes()
     logs = trials.folder / "logs"
     for name, text in deep_texts():
@@ -153,14 +153,14 @@ def texts(trials):
         trials.azimuth_does("replay", hostile)
         trials.daemon_checks("--play", hostile)
         report = trials.file(f"{name}.json", text.replace(b"a.", b'{"a":').replace(b"{a=", b'{"a":'))
-        trials.azimuth_does("compare", report)
+        trials.azimuth_does("report", "compare", report)
     shutil.copy(log, logs / "good.lcmlog")
-    said = trials.azimuth_does("log", "index", logs, answers=(0,))
+    said = trials.azimuth_does("report", "logs", logs, answers=(0,))
     if f"{len(list(deep_texts())) + 1} logs" not in said:
         trials.failures.append("log index: a bad log ends the catalogue: " + said[-300:])
     nested = b'{"name":' * 100_000 + b"1" + b"}" * 100_000
-    trials.azimuth_does("compare", trials.file("nested.json", nested))
-    trials.azimuth_does("compare", trials.file("lists.json", b"[" * 500_000 + b"]" * 500_000))
+    trials.azimuth_does("report", "compare", trials.file("nested.json", nested))
+    trials.azimuth_does("report", "compare", trials.file("lists.json", b"[" * 500_000 + b"]" * 500_000))
 
 
 def bombs(trials):
@@ -179,7 +179,7 @@ def bombs(trials):
     trials.imports("chunks.bag", made.BAG_BEGIN + begins + made.bz2.compress(random.Random(2).randbytes(150_000)))
     trials.imports("skipped.mcap", made.MCAP_BEGIN
                    + made.mcap_chunk("zstd", b"\x50\x2a\x4d\x18" + made.u32(400_000) + bytes(400_000), 10) * 2)
-    # Messages that pack well, within the bound.
+    # Messages that compress well, within the limit of the budget.
     body = made.connection(0, b"/odom", "nav_msgs/Odometry", made.ODOMETRY)
     body += b"".join(made.message(0, 10 + i, made.odometry(10 + i, 0.01 * i)) for i in range(60_000))
     trials.imports("well_packed.bag", made.BAG_BEGIN + made.chunk("bz2", made.bz2.compress(body), len(body))
@@ -257,7 +257,7 @@ def images(trials):
         (folder / "frames" / name).write_bytes(content)
         (folder / "frames.csv").write_text(f"{rows[0]}\n{stamp},frames/{name}\n")
         trials.azimuth_does("replay", folder)
-        trials.azimuth_does("convert", folder, trials.folder / "images.lcmlog", "--force")
+        trials.azimuth_does("import", folder, trials.folder / "images.lcmlog", "--force")
         trials.azimuth_does("calibrate", "mirror", folder / "frames" / name, "--out", trials.folder / "rig.toml", "--force")
         body = made.drive_bag()[len(made.BAG_BEGIN):]
         body += made.connection(9, b"/image", "sensor_msgs/CompressedImage", made.COMPRESSED)
@@ -271,7 +271,7 @@ def images(trials):
 
 def logs(trials):
     log = trials.folder / "lab.lcmlog"
-    trials.azimuth_does("convert", trials.runs / "lab", log, answers=(0,))
+    trials.azimuth_does("import", trials.runs / "lab", log, answers=(0,))
     whole = log.read_bytes()[:100_000]
     odometry = next((c, d) for c, d in made.lcm_events(whole) if c == b"AZIMUTH_ODOM")
     document = next((c, d) for c, d in made.lcm_events(whole) if c == b"AZIMUTH_DOCUMENT")
@@ -287,7 +287,7 @@ def logs(trials):
     }
     for name, content in files.items():
         trials.reads_recording(trials.file(f"{name}.lcmlog", content))
-    trials.azimuth_does("log", "index", trials.folder, answers=(0,))
+    trials.azimuth_does("report", "logs", trials.folder, answers=(0,))
 
 
 def tables(trials):
@@ -316,7 +316,7 @@ def tables(trials):
         trials.azimuth_does("import", table, out, "--force", "--columns", "t_s=1[ns],x_m=2,y_m=3[mm],heading_rad=4[deg]")
         trials.azimuth_does("replay", trials.run_of(f"{name}_o", odometry_csv=content))
         trials.azimuth_does("replay", trials.run_of(f"{name}_b", bearings_csv=content))
-        trials.azimuth_does("evaluate", trials.runs / "lab", table)
+        trials.azimuth_does("report", "trajectory", trials.runs / "lab", table)
         trials.azimuth_does("map", "info", table)
 
 
@@ -325,7 +325,7 @@ def files_in(folder):
 
 
 def interrupted(trials, bag, out, begun, end):
-    """Ends an import once `begun` is there; its exit code."""
+    """Sends the signal `end` to an import when the file `begun` exists; returns the exit code."""
     command = [trials.azimuth, "import", str(bag), str(out), "--force", "--rig", str(trials.runs / "lab/rig.toml")]
     process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     until = time.monotonic() + WALL_S
@@ -337,7 +337,7 @@ def interrupted(trials, bag, out, begun, end):
 
 
 def interrupts(trials):
-    """Ctrl-C leaves what was there, and nothing else."""
+    """Checks that Ctrl-C leaves the earlier files unchanged and no new ones."""
     body = made.connection(9, b"/image", "sensor_msgs/Image", made.IMAGE)
     noise = random.Random(5).randbytes(640 * 480 * 3)
     for i in range(150):
@@ -366,7 +366,7 @@ def interrupts(trials):
 
 
 def changed(content, chance):
-    """Some bytes, lengths or pieces of it are others."""
+    """Changes some bytes, lengths or parts of the content."""
     content = bytearray(content)
     for _ in range(chance.choice((1, 1, 2, 5, 20))):
         if not content:
@@ -394,7 +394,7 @@ def changed(content, chance):
 def mutants(trials, numbers):
     trials.most_cpu_s = LONGEST_REPLAY_S
     log = trials.folder / "lab.lcmlog"
-    trials.azimuth_does("convert", trials.runs / "lab", log, answers=(0,))
+    trials.azimuth_does("import", trials.runs / "lab", log, answers=(0,))
     lab, mirror = trials.runs / "lab", trials.runs / "mirror"
     saved = trials.folder / "lab.azmap"
     trials.azimuth_does("map", "save", lab, "--map", saved, answers=(0,))
@@ -421,7 +421,7 @@ def mutants(trials, numbers):
             for file in folder.rglob(what):
                 file.write_bytes(changed(file.read_bytes(), chance))
             trials.azimuth_does("replay", folder)
-            trials.azimuth_does("check" if kind == "lab" else "convert", folder,
+            trials.azimuth_does("check" if kind == "lab" else "import", folder,
                                 *([] if kind == "lab" else [trials.folder / "mutant_out", "--force"]))
 
 

@@ -1,4 +1,5 @@
-"""Recordings, images and packed bytes, made by hand: what a test wants to be wrong in them, no library would write."""
+"""Makes recordings, images and compressed data byte by byte, because no library writes the faults that the tests
+need."""
 
 import bz2
 import struct
@@ -117,12 +118,12 @@ def drive_mcap(readings=50):
     return MCAP_BEGIN + mcap_chunk("", body, len(body)) + MCAP_BEGIN
 
 
-# Packed bytes: of one that is repeated.
+# Compressed data of one repeated byte.
 
 
 def zstd_of(byte, blocks):
-    """A frame of blocks, each one byte 128 kB times."""
-    frame = b"\x28\xb5\x2f\xfd" + bytes([0, 7 << 3])  # no size, a window of 128 kB
+    """A frame of blocks, each of which repeats one byte 128 k times."""
+    frame = b"\x28\xb5\x2f\xfd" + bytes([0, 7 << 3])  # without content size, window of 128 kB
     size = 1 << 17
     for i in range(blocks):
         frame += struct.pack("<I", (i == blocks - 1) | 1 << 1 | size << 3)[:3] + bytes([byte])
@@ -130,7 +131,8 @@ def zstd_of(byte, blocks):
 
 
 def lz4_of(byte, megabytes):
-    """A frame of blocks of 4 MB, each one byte and then what is one before; the header's sum is fixed by the flags."""
+    """A frame of blocks of 4 MB, each a literal byte and a match at offset 1. The header checksum (0x73) belongs to
+    these flags."""
     frame = b"\x04\x22\x4d\x18" + b"\x60\x70" + b"\x73"
     size = 4 << 20
     run = size - 1 - 5 - 4 - 15
@@ -154,7 +156,7 @@ def png(width, height, rows, depth=8, colour=0, before=b"", interlaced=0):
 
 
 def jpeg(width, height, scans=1, progressive=False):
-    """Grey; each scan has no more than its header and some bytes."""
+    """A grey JPEG image, whose scans consist of a header and a few bytes."""
     quantisation = b"\xff\xdb\x00\x43\x00" + bytes([1] * 64)
     frame = (b"\xff\xc2" if progressive else b"\xff\xc0") + struct.pack(">HBHHBBBB", 11, 8, height, width, 1, 1, 0x11, 0)
     dc = b"\xff\xc4" + struct.pack(">H", 2 + 17 + 1) + b"\x00" + bytes([1] + [0] * 15) + b"\x00"
@@ -177,7 +179,7 @@ def lcm_event(number, channel, data, length=None):
 
 
 def lcm_events(log):
-    """(channel, data) of each event of a sound log, which may be cut."""
+    """Yields (channel, data) of each event of a sound log, which may be cut off."""
     at = 0
     while at + 28 <= len(log):
         channel, data = struct.unpack(">II", log[at + 20:at + 28])
@@ -186,7 +188,8 @@ def lcm_events(log):
 
 
 def with_document(log, name, text):
-    """The log with another text in its document of that name: a message ends in its size and its bytes."""
+    """Replaces the text of the document `name` in a log. A document message ends with the size and the bytes of its
+    text."""
     made = b""
     named = name.encode() + b"\0"
     for number, (channel, data) in enumerate(lcm_events(log)):

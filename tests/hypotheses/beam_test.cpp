@@ -48,7 +48,7 @@ TEST(Beam, ThePoseIsRightWithinWhatItSaysOfItself) {
   const Pose2 truth = inverse(on_circle(0)) * on_circle(kImages - 1);
   Eigen::Vector3d off = truth.vector() - last.vector();
   off.z() = wrap(off.z());
-  EXPECT_LT(off.dot(beam.newest_pose().covariance.inverse() * off), 16.3);  // 99.9 % of 3 degrees of freedom
+  EXPECT_LT(off.dot(beam.newest_pose().covariance.inverse() * off), 16.3);  // 99.9 % quantile of 3 degrees of freedom
   EXPECT_LT(off.head<2>().norm(), 0.15);
 }
 

@@ -22,9 +22,9 @@ TEST(ClearPairs, WhatLiesBetweenTwoFreeLandmarksIsOfNeither) {
 }
 
 TEST(ClearPairs, ARivalThatIsTakenCountsWithWhatItWouldCostToTakeItAway) {
-  // Each bearing is near both landmarks, but they can only be given away in one way at a low cost.
+  // Each bearing is near both landmarks, but only one assignment has a low cost.
   EXPECT_THAT(clear({{0.1, 10, 7}, {0.2, 11, 8}, {1.2, 10, 8}, {1.3, 11, 7}}), ElementsAre(7, 8));
-  // Here the other way round costs as little.
+  // The swapped assignment costs as little, so neither is clear.
   EXPECT_THAT(clear({{0.1, 10, 7}, {0.2, 11, 8}, {0.3, 10, 8}, {0.4, 11, 7}}), ElementsAre(kOfNothing, kOfNothing));
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 using testing::ElementsAre;
 
-/// Landmarks are known well, a heading to `sigma_heading_rad`.
+/// Landmarks are known well; the heading has the standard deviation `sigma_heading_rad`.
 PoseAndLandmarks seen_under(const std::vector<double>& azimuths, double sigma_heading_rad) {
   return known_but_for_heading(azimuths, sigma_heading_rad, 1e-6);
 }
@@ -22,11 +22,11 @@ ConditionedAssociationSettings settings() {
   return settings;
 }
 
-constexpr double kTurned_rad = 0.2;  // of the heading, unseen by odometry
+constexpr double kTurned_rad = 0.2;  // a turn that odometry does not measure
 NamelessSighting at(double azimuth_rad) { return {azimuth_rad - kTurned_rad, 0.02}; }
 
 TEST(ConditionedAssociation, AClearPairTellsThoseApartThatWereNot) {
-  // The last two landmarks are 0.3 apart: of the bearing of the last one the other one is nearer.
+  // The last two landmarks are 0.3 rad apart, and the last one's bearing is nearer to the other landmark.
   const PoseAndLandmarks belief = seen_under({-2.0, 1.0, 1.3}, 0.15);
   EXPECT_THAT(associate_conditioned(belief, std::vector{at(1.3)}, settings()), ElementsAre(-1));
   EXPECT_THAT(associate_conditioned(belief, std::vector{at(1.3), at(1.0), at(-2.0)}, settings()), ElementsAre(2, 1, 0));

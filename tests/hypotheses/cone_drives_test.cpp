@@ -1,4 +1,4 @@
-// A small car that drives figures of eight fast among cones all alike.
+// A small car that drives figures of eight fast among identical cones.
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kSeeds = 20;
 
-/// The share of live positions that are wrong by less than two standard deviations.
+/// The share of live positions whose error is less than two standard deviations.
 double share_within_two_sigma(const Run& run, const NamelessRun& result) {
   const auto errors = errors_of_each(run, result.online);
   double within = 0.0, all = 0.0;

@@ -11,7 +11,7 @@
 namespace azimuth {
 namespace {
 
-/// Nothing is of nothing, and what could be of a landmark is.
+/// Settings without clutter: every bearing that fits a landmark belongs to it.
 DrawnMapSettings sure_settings() {
   DrawnMapSettings settings;
   settings.hypothesis.scene.sigma_bearing_rad = 0.02;
@@ -42,7 +42,7 @@ Eigen::Vector2d in_chart(const Eigen::Vector2d& p, const Eigen::Vector2d& chart)
 
 Draws draws() { return Draws(Xoshiro(3)); }
 
-/// After a turn that is not certain, one landmark has been seen.
+/// A map after an uncertain turn and one bearing of one landmark.
 DrawnMap with_one_landmark(const Motion& turn, double azimuth_rad, Draws& numbers) {
   DrawnMap map;
   map.move(turn);
@@ -50,8 +50,8 @@ DrawnMap with_one_landmark(const Motion& turn, double azimuth_rad, Draws& number
   return map;
 }
 
-/// How a landmark lies to the robot, in coordinates that see no difference when the whole map is moved: what a step of
-/// them is, as the map takes it.
+/// The position of a landmark relative to the robot, in coordinates that do not change when the whole map moves.
+/// stepped() applies a step of these coordinates in the same way as the map.
 struct Place {
   Pose2 pose;
   SmoothedLandmark landmark;
@@ -76,7 +76,7 @@ TEST(DrawnMap, ANewLandmarkLiesToTheRobotAsWhatWasMeasured) {
   EXPECT_EQ(map.landmark(0).p_map_chart, map.pose().position());
 }
 
-/// By how much the noise of a motion moves the landmark, seen from the robot.
+/// The effect of motion noise on the landmark's position relative to the robot.
 TEST(DrawnMap, MotionMovesTheRobotAndNotTheLandmarks) {
   const DrawnMapSettings settings = sure_settings();
   DrawnMap map;
@@ -89,7 +89,7 @@ TEST(DrawnMap, MotionMovesTheRobotAndNotTheLandmarks) {
   const Place place{map.pose(), map.landmark(0)};
   Eigen::Matrix<double, 5, 3> by_noise;
   for (int i = 0; i < 3; ++i) {
-    // What moves all, and what of the landmark then brings it back to where it stood.
+    // The step moves everything. A further step of the landmark moves it back to its place.
     const auto of_all = [&](double step) {
       const Place all = place.stepped(step * Eigen::Matrix<double, 5, 1>::Unit(i));
       return in_chart(all.landmark.p_map(), place.landmark.p_map_chart);
@@ -97,7 +97,7 @@ TEST(DrawnMap, MotionMovesTheRobotAndNotTheLandmarks) {
     by_noise.col(i) << Eigen::Vector3d::Unit(i), -(of_all(1e-6) - of_all(-1e-6)) / 2e-6;
   }
   Eigen::MatrixXd expected = before;
-  expected.topLeftCorner<3, 3>().setZero();  // it was certain
+  expected.topLeftCorner<3, 3>().setZero();  // the pose was certain
   expected += by_noise * moved.noise * by_noise.transpose();
   EXPECT_LT((map.covariance() - expected).cwiseAbs().maxCoeff(), 1e-8);
 }
@@ -132,7 +132,7 @@ TEST(DrawnMap, ABearingCorrectsEverythingAsAKalmanFilterWould) {
   EXPECT_LT((map.covariance() - map.covariance().transpose()).cwiseAbs().maxCoeff(), 1e-15);
 }
 
-/// However often new landmarks are seen, they never tell where the robot is in the map.
+/// However often new landmarks are seen, they give no information on the robot's pose in the map.
 TEST(DrawnMap, NewLandmarksSayNothingOfThePose) {
   const DrawnMapSettings settings = sure_settings();
   DrawnMap map;
@@ -183,7 +183,7 @@ TEST(DrawnMap, HasSoManyLandmarksAtMost) {
   EXPECT_EQ(map.covariance().rows(), 13);
 }
 
-/// What is predicted vaguely, and was not seen lately, may be anything.
+/// A landmark with a vague prediction that was not seen for long is not matched.
 TEST(DrawnMap, AVaguePredictionClosesNoLoop) {
   DrawnMapSettings settings = sure_settings();
   DrawnMap map;

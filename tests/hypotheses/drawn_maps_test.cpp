@@ -25,7 +25,7 @@ std::vector<NamelessSighting> ahead(std::vector<NamelessSighting> sightings) {
   return sightings;
 }
 
-/// Beliefs of every image, and where odometry alone ends.
+/// The pose after every image, and the final pose of odometry alone.
 struct Drive {
   std::vector<BelievedPose> beliefs;
   Pose2 by_odometry;
@@ -54,7 +54,7 @@ TEST(DrawnMaps, SameBitsWhateverTheWorkers) {
   }
 }
 
-/// Three laps, ten times.
+/// The mean over ten drives of three laps.
 TEST(DrawnMaps, KnowBetterThanOdometryWhereTheRobotIs) {
   InTurn workers;
   constexpr int kThreeLaps = 95;

@@ -8,7 +8,7 @@
 namespace azimuth {
 namespace {
 
-/// What the hypothesis is worth by its poses, landmarks and pairs alone, each term written out.
+/// The energy of the hypothesis computed from its poses, landmarks and pairs alone, term by term.
 double energy_term_by_term(const Hypothesis& hypothesis, const HypothesisSettings& settings, double missed_scale) {
   const BearingGraph& graph = hypothesis.graph();
   double energy = 0.0;
@@ -50,7 +50,7 @@ TEST(Energy, IsTheSumOfItsTerms) {
   ASSERT_GE(hypothesis.landmarks().size(), 4U);
   EXPECT_NEAR(hypothesis.energy(), energy_term_by_term(hypothesis, world_settings(), 1.3), 1e-6);
 
-  // A bearing that is taken away costs, and its landmark was missed there.
+  // A bearing without a landmark costs, and its landmark counts as missed in that image.
   const LandmarkId landmark = hypothesis.landmarks().front();
   const std::vector<BearingId> bearings = hypothesis.graph().bearings_of(landmark);
   hypothesis.assign(bearings[bearings.size() / 2], kOfNothing);
@@ -65,7 +65,7 @@ TEST(Energy, ALandmarkThatIsNotSeenAnyMoreIsMissedTwelveTimes) {
     return (hypothesis.graph().landmark(id).p_map() - hypothesis.smoother().newest_pose().position()).norm() < 5.0;
   }));
   ASSERT_GE(should_be_seen, 2);
-  // From one place, blind.
+  // Images without bearings, all from one place.
   const auto stand = [&](int images) {
     for (int image = 0; image < images; ++image) hypothesis.add_image(world.motion(on_circle(13), on_circle(13)), {});
     return hypothesis.missed() - missed;
@@ -83,7 +83,7 @@ TEST(Energy, TheTruthIsNotDearerThanPairsThatAreSwapped) {
   NamelessWorld world(ring_of_landmarks());
   Hypothesis hypothesis = driven(world, 14);
   const double right = hypothesis.energy();
-  // The newest image's first two bearings that are of something, the other way round.
+  // The first two assigned bearings of the newest image are swapped.
   std::vector<BearingId> of_something;
   for (BearingId id = hypothesis.first_bearing(13); id < hypothesis.graph().bearings(); ++id)
     if (hypothesis.graph().landmark_of(id) != kOfNothing) of_something.push_back(id);

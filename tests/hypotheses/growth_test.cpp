@@ -8,7 +8,8 @@ namespace azimuth {
 namespace {
 
 struct Explained {
-  int right = 0, wrong = 0;  // bearings, by what most of their landmark's are of
+  // A bearing is right if it belongs to the same true landmark as most bearings of its mapped landmark.
+  int right = 0, wrong = 0;
 };
 
 Explained explained(const Hypothesis& hypothesis, const std::vector<int>& names) {
@@ -35,7 +36,7 @@ TEST(Growth, FindsWhatStandsThere) {
   EXPECT_LT(10 * bearings.wrong, bearings.right);
 }
 
-// As many bearings in an image as where a crowd is begun together, and nothing there.
+// Each image has as many clutter bearings as an image in which a crowd of landmarks is initialised together.
 TEST(Growth, MakesLittleOfACrowdOfClutter) {
   std::size_t explained = 0, bearings = 0;
   for (unsigned seed = 1; seed <= 5; ++seed) {
@@ -71,7 +72,7 @@ TEST(Growth, MakesNothingOfClutter) {
     for (int i = 1; i < 25; ++i) hypothesis.add_image(world.motion(on_circle(i - 1), on_circle(i)), clutter());
     found += hypothesis.landmarks().size();
   }
-  EXPECT_LE(found, 1U);  // in 250 images
+  EXPECT_LE(found, 1U);  // out of 250 images
 }
 
 }  // namespace

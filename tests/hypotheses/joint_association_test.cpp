@@ -16,7 +16,7 @@ using testing::ElementsAre;
 
 constexpr double kSigmaBearing_rad = 0.02;
 
-/// Landmarks are known exactly, a heading to `sigma_heading_rad`.
+/// Landmarks are known exactly; the heading has the standard deviation `sigma_heading_rad`.
 PoseAndLandmarks known_exactly(const std::vector<double>& azimuths, double sigma_heading_rad) {
   return known_but_for_heading(azimuths, sigma_heading_rad, 1e-12);
 }
@@ -40,7 +40,7 @@ std::vector<int> jointly(const std::vector<double>& landmarks, double sigma_head
 }
 
 TEST(JointAssociation, TwoBearingsThatAgreeOutweighOneThatIsNearer) {
-  // The robot has turned by 0.13 more than is known, and 0.13 beside the first landmark stands a third one.
+  // The robot has turned by 0.13 rad more than odometry says, and a third landmark lies 0.16 rad beside the first one.
   const std::vector<double> landmarks{0.0, 1.0, -0.16}, bearings{-0.13, 0.87};
   EXPECT_THAT(jointly(landmarks, 0.05, bearings, wide_gate()), ElementsAre(0, 1));
   EXPECT_THAT(jointly(landmarks, 0.05, {-0.13}, wide_gate()), ElementsAre(2)) << "nothing agrees with the first one";
@@ -49,14 +49,14 @@ TEST(JointAssociation, TwoBearingsThatAgreeOutweighOneThatIsNearer) {
 }
 
 TEST(JointAssociation, ALandmarkThatShouldBeSeenSpeaksForABearing) {
-  // 3 standard deviations off: rather nothing, unless it is strange that the landmark is not seen.
+  // The bearing is 3 standard deviations off: it counts as clutter, unless missing the landmark would be unlikely.
   ConditionedAssociationSettings settings = wide_gate();
   settings.new_landmark_bonus = 0.0;
   settings.min_margin = 1.0;
   const double off_rad = 3.0 * kSigmaBearing_rad;
   settings.scene.detection_probability = 0.99;
   EXPECT_THAT(jointly({0.0}, 1e-6, {off_rad}, settings), ElementsAre(0));
-  settings.scene.range_m = 4.0;  // it is on the edge, so nobody misses it
+  settings.scene.range_m = 4.0;  // the landmark lies at the edge of the range, so missing it is no evidence
   EXPECT_THAT(jointly({0.0}, 1e-6, {off_rad}, settings), ElementsAre(-1));
 }
 
@@ -72,9 +72,9 @@ TEST(JointAssociation, WhatIsOutOfViewIsNotMissed) {
 }
 
 TEST(JointAssociation, TwoWaysThatAreAsLikelyAreNone) {
-  // Either turned to the left or to the right: both explain both bearings.
+  // A turn to the left and one to the right explain both bearings equally well.
   EXPECT_THAT(jointly({0.1, 1.1, -0.1, 0.9}, 0.15, {0.0, 1.0}, wide_gate()), ElementsAre(-1, -1));
-  // A third bearing knows.
+  // A third bearing decides.
   EXPECT_THAT(jointly({0.1, 1.1, -0.1, 0.9, 2.1}, 0.15, {0.0, 1.0, 2.0}, wide_gate()), ElementsAre(0, 1, 4));
 }
 
@@ -83,7 +83,7 @@ TEST(JointAssociation, NothingSeenAndNothingMappedAreAnswered) {
   EXPECT_THAT(jointly({}, 0.1, {0.0, 1.0}, wide_gate()), ElementsAre(-1, -1));
 }
 
-/// The odds of each pair by all readings of an image, each with the joint density of all its bearings.
+/// The odds of each pair, by summing over all readings of an image with the joint density of all its bearings.
 class AllReadings {
  public:
   AllReadings(std::vector<double> landmarks, double sigma_heading_rad, std::vector<double> bearings,
@@ -145,7 +145,7 @@ class AllReadings {
   double sum_ = 0.0;
 };
 
-/// 300 images of five landmarks at random, some missed, and of things that are nothing.
+/// 300 images of five random landmarks, with missed detections and clutter.
 TEST(JointAssociation, TakesThePairsThatAllReadingsTogetherCallClear) {
   const ConditionedAssociationSettings settings = wide_gate();
   std::mt19937_64 random(5);
@@ -165,7 +165,8 @@ TEST(JointAssociation, TakesThePairsThatAllReadingsTogetherCallClear) {
     for (std::size_t i = 0; i < bearings.size(); ++i)
       for (int j = 0; j < 5; ++j) {
         const double surplus = all.log_odds(i, j) - settings.min_margin;
-        if (std::abs(surplus) < 0.05) continue;  // what is dropped as unlikely may be as much
+        // the search drops unlikely readings, whose weight may be as large as this
+        if (std::abs(surplus) < 0.05) continue;
         ++(surplus > 0.0 ? clear : unclear);
         EXPECT_EQ(landmark_of[i] == j, surplus > 0.0) << "image " << image << ", ahead by " << surplus;
       }

@@ -1,5 +1,5 @@
 #pragma once
-// A robot that knows what is around it, but not quite which way it looks.
+// A robot that knows its surroundings, but not its heading.
 
 #include <vector>
 
@@ -7,7 +7,8 @@
 
 namespace azimuth {
 
-/// Landmarks 4 m away at these azimuths; all but the heading is known with `variance` [m^2, rad^2, 1/m^2].
+/// Landmarks 4 m away at these azimuths. Every entry except the heading has the variance `variance` [m^2, rad^2,
+/// 1/m^2].
 inline PoseAndLandmarks known_but_for_heading(const std::vector<double>& azimuths, double sigma_heading_rad,
                                               double variance) {
   PoseAndLandmarks belief;

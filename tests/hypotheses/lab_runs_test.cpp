@@ -1,4 +1,5 @@
-// Runs without their names: what must be reached, live and in hindsight, and that what is said of it is true.
+// Runs without identities: the accuracy that must be reached, live and in hindsight, and the consistency of the
+// covariances.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -11,7 +12,7 @@
 namespace azimuth {
 namespace {
 
-/// Means over the runs, but for what is counted.
+/// Means over the runs, except for the counts.
 struct LabScore {
   RunError online, smoothed;
   double odometry_m = 0.0, mapped = 0.0, duplicates = 0.0, trusted = 0.0, worst_trusted_anees = 0.0;

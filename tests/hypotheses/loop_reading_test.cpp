@@ -22,7 +22,7 @@ std::vector<Eigen::Vector2d> scattered_landmarks(unsigned seed) {
 std::vector<MappedBefore> map_of(const std::vector<Eigen::Vector2d>& landmarks) {
   std::vector<MappedBefore> map;
   for (const Eigen::Vector2d& p : landmarks) {
-    // In the chart of a place two metres away, known to 5 cm.
+    // The chart's origin is two metres away, and the position is known to 5 cm.
     const SmoothedLandmark where(p - Eigen::Vector2d(2.0, 0.0), 0.0, 0.5);
     const Eigen::Matrix2d by_place = where.p_by_chart().inverse();
     map.push_back({where, 0.05 * 0.05 * by_place * by_place.transpose(), kAnyKind});
@@ -56,7 +56,7 @@ TEST(LoopReading, FindsARobotThatIsMetresFromWhereItIsThought) {
   for (unsigned seed = 1; seed <= kDrives; ++seed) {
     const std::vector<Eigen::Vector2d> landmarks = scattered_landmarks(seed);
     const ReadDrive drive = read_drive(landmarks, seed);
-    const Whereabouts thought{drive.truth.front().position() + Eigen::Vector2d(1.5, -1.5), 3.0};
+    const PositionPrior thought{drive.truth.front().position() + Eigen::Vector2d(1.5, -1.5), 3.0};
     const std::vector<PoseGaussian> found = find_in_map(map_of(landmarks), drive.images, scene_seen(), thought);
     if (found.empty()) continue;
     const Pose2 off = inverse(drive.truth.back()) * found.front().T_map_body;
@@ -68,7 +68,7 @@ TEST(LoopReading, FindsARobotThatIsMetresFromWhereItIsThought) {
 TEST(LoopReading, FindsNothingWhereNothingIsMappedOrSeen) {
   const std::vector<Eigen::Vector2d> landmarks = scattered_landmarks(1);
   ReadDrive drive = read_drive(landmarks, 1);
-  const Whereabouts here{drive.truth.front().position(), 1.0};
+  const PositionPrior here{drive.truth.front().position(), 1.0};
   EXPECT_TRUE(find_in_map({}, drive.images, scene_seen(), here).empty());
   for (ImageToRead& image : drive.images) image.sightings.clear();
   EXPECT_TRUE(find_in_map(map_of(landmarks), drive.images, scene_seen(), here).empty());

@@ -7,8 +7,8 @@ namespace {
 
 constexpr int kDarkFrom = 20, kDarkTo = 32, kWholeDrive = 44;
 
-/// Two thirds of a lap, a stretch in the dark in which the robot slips and knows only that it may have, and what comes
-/// after. Nothing new is mapped there: the window is too short for it.
+/// Two thirds of a lap, a stretch without bearings in which the robot slips and its covariance grows, and the rest of
+/// the drive. The window is too short to map anything new in between.
 Hypothesis slipped(unsigned seed, const Pose2& slip) {
   NamelessWorld world(ring_of_landmarks(), seed);
   Hypothesis hypothesis(world_settings(), {.window = 3});
@@ -33,7 +33,7 @@ TEST(Loops, AreClosedBySeveralImagesWhereNoneClosesThemAlone) {
   int lost = 0, closed = 0, right = 0;
   for (unsigned seed = 1; seed <= 12; ++seed) {
     Hypothesis hypothesis = slipped(seed, {1.3, -0.9, 0.5});
-    if (off_m(hypothesis) < 0.5) continue;  // it found its way by itself
+    if (off_m(hypothesis) < 0.5) continue;  // the hypothesis has corrected itself
     ++lost;
     const double energy = hypothesis.energy();
     if (!hypothesis.close_loop()) continue;

@@ -53,7 +53,8 @@ TEST(Nameless, AnImageThatComesSoonButFromFarAwayMakesAPose) {
   EXPECT_TRUE(nameless.update(set_at(0.1), workers));
 }
 
-/// Landmarks after an image of two bearings so far apart, where each bearing is a landmark at once.
+/// The number of landmarks after an image of two bearings `apart_sigmas` apart, when each bearing becomes a landmark at
+/// once.
 int landmarks_of_two(double apart_sigmas) {
   NamelessSettings settings = nameless_settings();
   settings.beam.hypothesis.tracks.used = true;
@@ -75,7 +76,7 @@ TEST(BelievedPose, OneOfTwoIsTheMixtureOfBothWhereverItIsTold) {
   BelievedPose first, second;
   first.T_map_body = {1.0, 2.0, 3.1};
   first.covariance.diagonal() << 0.1, 0.2, 0.03;
-  second.T_map_body = {3.0, 1.0, -3.1};  // further by the short way round
+  second.T_map_body = {3.0, 1.0, -3.1};  // farther round across the wrap at pi
   second.covariance.diagonal() << 0.5, 0.4, 0.01;
   constexpr double kWrong = 0.3;
   const BelievedPose told = one_of_two(first, second, kWrong, kWrong);
@@ -111,7 +112,7 @@ TEST(Nameless, NamesAreNotLookedAt) {
   EXPECT_EQ(with.pose().T_map_body, without.pose().T_map_body);
 }
 
-/// Laps of 31 images and a bit.
+/// The bearings of an image on the circle; a lap takes somewhat more than 31 images.
 BearingSet lap_set(NamelessWorld& world, int image) {
   BearingSet set;
   set.stamp = Stamp(duration_from_seconds(image));

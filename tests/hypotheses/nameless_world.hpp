@@ -1,5 +1,5 @@
 #pragma once
-// A drive among landmarks all alike, as odometry and bearings.
+// A simulated drive among identical landmarks, with odometry and bearings.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace azimuth {
 
 inline constexpr double kSigma_rad = 0.02;
 
-/// A circle of 8 m round a block, landmarks on both sides of it.
+/// Landmarks on both sides of a circular path of 8 m in diameter, see on_circle().
 inline std::vector<Eigen::Vector2d> ring_of_landmarks() {
   return {{2.0, 2.2},  {-2.1, 1.4},  {0.3, -2.3},  {6.1, 0.5}, {3.2, 5.4},
           {-3.0, 5.0}, {-6.0, -1.0}, {-2.5, -5.6}, {3.9, -4.6}};
@@ -25,7 +25,7 @@ inline Pose2 on_circle(int image, double radius_m = 4.0, double step_rad = 0.2) 
   return {radius_m * std::cos(at), radius_m * std::sin(at), wrap(at + 1.5707963267948966)};
 }
 
-/// Odometry and bearings with errors; same seed, same numbers.
+/// Odometry and bearings with errors. The same seed gives the same numbers.
 class NamelessWorld {
  public:
   explicit NamelessWorld(std::vector<Eigen::Vector2d> landmarks, unsigned seed = 1, double sigma_motion_rad = 0.01)
@@ -46,7 +46,8 @@ class NamelessWorld {
     return motion;
   }
 
-  /// Of all landmarks within the range, in the order of their azimuths. `names`, when given, becomes which they are.
+  /// The bearings of all landmarks within the range, in the order of their azimuths. `names`, if given, receives the
+  /// indices of the landmarks.
   std::vector<NamelessSighting> sightings(const Pose2& T, double range_m, std::vector<int>* names = nullptr) {
     std::vector<std::pair<double, int>> seen;
     for (std::size_t i = 0; i < landmarks_.size(); ++i) {
@@ -84,7 +85,7 @@ inline HypothesisSettings world_settings() {
   return settings;
 }
 
-/// So many images on the circle through one hypothesis.
+/// A hypothesis after `images` images on the circle.
 inline Hypothesis driven(NamelessWorld& world, int images, std::vector<int>* names = nullptr,
                          const MemberSettings& member = {}) {
   Hypothesis hypothesis(world_settings(), member);

@@ -1,4 +1,4 @@
-// A camera that sees ahead only, in rooms of landmarks all alike.
+// A camera with a forward field of view, in rooms with identical landmarks.
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -33,7 +33,7 @@ TEST(Reassociation, GivesBackWhatWasTakenAway) {
   EXPECT_EQ(hypothesis.graph().landmark_of(taken), landmark);
 }
 
-/// A bearing that lies badly, and may be of nothing as well, is not given away by an image or two of hindsight.
+/// A bearing that fits badly, and may be clutter as well, is not assigned after only one or two images of hindsight.
 TEST(Reassociation, WhatIsHardlyBetterThanNothingWaitsForHindsight) {
   int given_at_last = 0, waited = 0;
   for (unsigned seed = 1; seed <= 20; ++seed) {
@@ -65,7 +65,8 @@ TEST(Reassociation, WhatIsHardlyBetterThanNothingWaitsForHindsight) {
   EXPECT_GE(2 * waited, given_at_last) << "of " << given_at_last << " only " << waited << " waited";
 }
 
-/// Of two landmarks side by side one bearing is seen, in the middle: it is of the one that it was said to be of.
+/// One bearing lies in the middle between two neighbouring landmarks. It stays with the landmark that it was assigned
+/// to.
 TEST(Reassociation, APairThatStandsStaysWhileNoRivalIsBetter) {
   const Eigen::Vector2d one(-7.99, 1.46), other(-8.06, 0.91);
   std::vector<Eigen::Vector2d> landmarks = ring_of_landmarks();
@@ -114,7 +115,7 @@ TEST(Reassociation, ALandmarkOfTwoBearingsDies) {
   const LandmarkId landmark = hypothesis.landmarks().front();
   while (hypothesis.graph().bearings_of(landmark).size() > 1)
     hypothesis.assign(hypothesis.graph().bearings_of(landmark).back(), kOfNothing);
-  // Its last bearing cannot be its own any more: it is far off.
+  // The landmark's last bearing is too far off to remain its own.
   hypothesis.add_image(world.motion(on_circle(13), on_circle(14)), {});
   for (const LandmarkId id : hypothesis.landmarks()) EXPECT_GE(hypothesis.graph().bearings_of(id).size(), 3U);
 }

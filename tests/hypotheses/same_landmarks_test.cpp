@@ -14,7 +14,7 @@ SmoothedLandmark at(double x_m, double y_m, const Eigen::Vector2d& chart = Eigen
   return {chart, std::atan2(away.y(), away.x()), 1.0 / away.norm()};
 }
 
-/// All independent.
+/// Landmarks with independent errors.
 LandmarkBeliefs beliefs(std::vector<SmoothedLandmark> landmarks) {
   LandmarkBeliefs result{std::move(landmarks), {}};
   const auto rows = static_cast<Eigen::Index>(2 * result.landmarks.size());
@@ -55,12 +55,12 @@ TEST(SameLandmarks, WhatMayBeAnywhereIsNotClear) {
 TEST(SameLandmarks, TwoRivalsLeaveItOpenUnlessTheyCouldBeOne) {
   const LandmarkBeliefs three = beliefs({at(3, 1), at(3.05, 1.05), at(3.02, 1.02)});
   EXPECT_TRUE(same_landmarks(three, Pairs{{0, 2}, {1, 2}}, same_settings()).empty());
-  // All three together are fine.
+  // All three may be the same landmark.
   EXPECT_EQ(same_landmarks(three, Pairs{{0, 1}, {0, 2}, {1, 2}}, same_settings()).size(), 2U);
 }
 
 TEST(SameLandmarks, APairThatIsClearMakesOthersClear) {
-  // Two new ones share an error of 0.25 m: the pair that is alone tells what it is, and the other pair follows.
+  // Two new landmarks share an error of 0.25 m. The unambiguous pair determines this error, and the other pair follows.
   LandmarkBeliefs shifted = beliefs({at(3, 0), at(0, 3), at(0.5, 3.5), at(3.25, 0.25), at(0.25, 3.25)});
   const Pairs possible{{0, 3}, {1, 4}, {2, 4}};
   const auto shift = [&](std::size_t i) -> Eigen::Matrix2d { return shifted.landmarks[i].p_by_chart().inverse(); };

@@ -35,11 +35,11 @@ TEST(ViewByExperience, IsNeverWiderThanGiven) {
   EXPECT_EQ(field_of_view_by_experience(1.0, graph_with(200, 1.5)), 1.0);
 }
 
-/// A straight drive past landmarks, with the map and the path as they are; `seen_m` is how far they are seen.
+/// A straight drive past landmarks with the true map and path. The landmarks are seen up to `seen_m`.
 struct DrivePast {
   double seen_m = 6.0;
   double detection_probability = 0.8;
-  double falsely_seen = 0.0;  ///< share of images beyond that in which something else is taken for one
+  double falsely_seen = 0.0;  ///< Share of images in which a landmark beyond that is falsely seen
   double field_of_view_rad = kAllRound_rad;
   double length_m = 30.0;
   std::vector<Eigen::Vector2d> landmarks;
@@ -125,7 +125,7 @@ TEST(RangeByExperience, WhatIsOutOfViewIsNotMissed) {
   const DrivePast ahead{
       .seen_m = 5.0, .detection_probability = 1.0, .field_of_view_rad = std::numbers::pi, .landmarks = on_both_sides()};
   Scene given;
-  given.detection_probability = 0.99;  // what is behind would outweigh what was seen
+  given.detection_probability = 0.99;  // otherwise misses behind the robot outweigh the detections
   const double as_if_all_round_m = ahead.range(given).range_m;
   given.field_of_view_rad = ahead.field_of_view_rad;
   const double range_m = ahead.range(given).range_m;

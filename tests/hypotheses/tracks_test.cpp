@@ -1,4 +1,4 @@
-// Cameras that see ahead only.
+// Tracks for cameras with a forward field of view.
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>
@@ -58,7 +58,7 @@ TEST(Tracks, WhatIsSeenAgainAfterALapIsOneLandmark) {
   const Pose2 truth = inverse(on_circle(0)) * on_circle(kTwoLaps - 1);
   Eigen::Vector3d off = truth.vector() - hypothesis.smoother().newest_pose().vector();
   off.z() = wrap(off.z());
-  EXPECT_LT(off.dot(hypothesis.smoother().newest_covariance().inverse() * off), 16.3);  // 99.9 %
+  EXPECT_LT(off.dot(hypothesis.smoother().newest_covariance().inverse() * off), 16.3);  // 99.9 % quantile
   EXPECT_LT(off.head<2>().norm(), 0.3);
 }
 

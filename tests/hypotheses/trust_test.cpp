@@ -100,7 +100,7 @@ TEST(Trust, AMapIsTheLikelierWrongTheLessItExplains) {
     last = wrong;
   }
   EXPECT_GT(last, 0.05);
-  evidence.explained = 1.0;  // nobody is always right
+  evidence.explained = 1.0;  // the probability of being wrong has a floor
   EXPECT_EQ(probability_all_wrong(evidence), last);
 }
 
@@ -109,7 +109,7 @@ TEST(Trust, AMapThatWentOnFittingIsHardlyWrong) {
   const double young = probability_all_wrong(evidence);
   evidence.images = 360;
   EXPECT_LT(probability_all_wrong(evidence), 0.4 * young);
-  evidence.explained = 0.3;  // wrong in about half of the images, however old
+  evidence.explained = 0.3;  // a map that explains so little is wrong about half of the time, however old it is
   EXPECT_GT(probability_all_wrong(evidence), young);
 }
 
@@ -145,7 +145,7 @@ NamelessSettings two_members() {
   return settings;
 }
 
-/// So many images on the circle; odometry turns by `too_far_rad` too far each time.
+/// Drives `images` images on the circle. Odometry turns by `too_far_rad` too far each time.
 Nameless driven_nameless(int images, double too_far_rad) {
   InTurn workers;
   Nameless nameless(two_members());
@@ -204,7 +204,7 @@ TEST(Trust, LandmarksThatAreNotSeenAnyMoreAreMissing) {
     few.stamp = Stamp(duration_from_seconds(i));
     const std::vector<NamelessSighting> all = world.sightings(on_circle(i), 6.0);
     ASSERT_GE(all.size(), 3U);
-    few.bearings.push_back({.azimuth_rad = all.front().azimuth_rad});  // what stood there was taken away but for one
+    few.bearings.push_back({.azimuth_rad = all.front().azimuth_rad});  // all landmarks in sight but one were removed
     nameless.update(few, workers);
   }
   EXPECT_GT(nameless.evidence().missing, 0.5);
@@ -223,7 +223,7 @@ TEST(Trust, NoCovarianceIsSmallerThanTheMembersHaveIt) {
   const Eigen::Matrix3d more = nameless.pose().covariance - nameless.beam().newest_pose().covariance;
   EXPECT_GT(more(0, 0), 0.0);
   EXPECT_GT(more(1, 1), 0.0);
-  // Odometry alone is the upper end.
+  // The covariance of odometry alone is the upper limit.
   EXPECT_LT(nameless.pose().covariance.trace(), 1.5 * nameless.odometry_alone().covariance.trace());
 }
 

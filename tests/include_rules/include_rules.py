@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Checks which folder may see which, and what the pure part may not touch (CONTRIBUTING, "Layout and its rules").
+"""Checks which folders may include which, and that the pure part uses nothing impure (CONTRIBUTING, "Layout and its
+rules").
 
 usage: include_rules.py SOURCE_TREE      exit code 0: clean, 1: violations, one `file:line: message` each
 """
@@ -37,15 +38,15 @@ IMPURE_WORDS = re.compile(
     r"|\bstd::(exit|quick_exit|_Exit|abort|terminate|system)\b|\b(exit|abort|_exit)\s*\("
     r"|\bstd::(cout|cerr|clog|print)\b|\b(f|s|sn)?printf\s*\(|\bspdlog::|\bsocket\s*\(|\bfopen\s*\("
     r"|\bthread_local\b|\bgetenv\b")
-# The C library of arm64 gives other last bits: slam/geometry/same_everywhere.hpp.
+# Functions whose last bits differ in the C library of arm64; slam/geometry/same_everywhere.hpp replaces them.
 ROUNDED_OTHERWISE = re.compile(r"\bstd::(hypot|cbrt|erfc?|[lt]gamma)\b")
 
 
 @dataclass(frozen=True)
 class Rule:
-    """What the files under one folder may see; the longest matching folder decides."""
-    sees: tuple                   # folders of ours
-    externals: tuple              # headers in <>
+    """The includes that files below a folder may use. The rule of the longest matching folder counts."""
+    sees: tuple                   # folders of this project
+    externals: tuple              # patterns of headers in <>
     forbidden: frozenset = frozenset(THREADS)
     words: tuple = (THREAD_WORDS,)
 
@@ -61,21 +62,21 @@ def pure(*sees, externals=()):
 
 
 RULES = {
-    "slam": pure(),  # a folder not named below sees nothing until it is
+    "slam": pure(),  # a folder without a rule may include nothing
     "slam/geometry": pure("slam/geometry"),
     "slam/sample": pure("slam/sample", "slam/geometry"),
     "slam/camera": pure("slam/camera", "slam/sample", "slam/geometry", externals=(OPENCV,)),
     "slam/perception": pure("slam/perception", "slam/camera", "slam/sample", "slam/geometry", externals=(OPENCV,)),
-    # Association takes predictions and covariances as values; it and the filters are siblings.
+    # Association takes predictions and covariances as values, so it and the filters are independent of each other.
     "slam/association": pure("slam/association", "slam/sample", "slam/geometry"),
     "slam/ekf": pure("slam/ekf", "slam/camera", "slam/sample", "slam/geometry"),
     "slam/fastslam": pure("slam/fastslam", "slam/camera", "slam/sample", "slam/geometry"),
-    # A sum of squares over poses and landmarks; who is who is decided by others.
+    # The smoother minimises a sum of squares over poses and landmarks; it gets the data association from its caller.
     "slam/smoother": pure("slam/smoother", "slam/sample", "slam/geometry"),
     "slam/hypotheses": pure("slam/hypotheses", "slam/localisation", "slam/smoother", "slam/sample", "slam/geometry"),
     "slam/localisation": pure("slam/localisation", "slam/association", "slam/sample", "slam/geometry"),
     "slam/map_merge": pure("slam/map_merge", "slam/sample", "slam/geometry"),
-    # What every estimator is; the estimators themselves stand beside each other, each on what it needs.
+    # The interface of all estimators. The estimators are independent of each other.
     "slam/estimator": pure("slam/estimator", "slam/ekf", "slam/localisation", "slam/camera", "slam/sample",
                            "slam/geometry"),
     "slam/lost": pure("slam/lost", "slam/estimator", "slam/localisation", "slam/ekf", "slam/sample", "slam/geometry"),
@@ -83,39 +84,41 @@ RULES = {
                         "slam/localisation", "slam/camera", "slam/sample", "slam/geometry"),
     "slam/hindsight": pure("slam/hindsight", "slam/lost", "slam/estimator", "slam/ekf", "slam/hypotheses", "slam/smoother",
                            "slam/localisation", "slam/camera", "slam/sample", "slam/geometry"),
-    # Which of both kinds a light is, a lamp or a reflection, both filters below a ceiling weigh alike.
+    # Both filters for ceiling lamps share the decision whether a light is a lamp or a reflection.
     "slam/ceiling": pure("slam/ceiling", "slam/lost", "slam/estimator", "slam/ekf", "slam/fastslam",
                          "slam/association", "slam/localisation", "slam/camera", "slam/sample", "slam/geometry"),
     "slam/particles": pure("slam/particles", "slam/lost", "slam/estimator", "slam/fastslam", "slam/ekf",
                            "slam/association", "slam/localisation", "slam/camera", "slam/sample", "slam/geometry"),
     "base": Rule(("base",), (STANDARD, EXPECTED, KERNEL)),
     "drivers": driver("drivers"),
-    # What drivers share, each of it on what stands above it.
+    # Common parts of the drivers; each may use the ones above it.
     "drivers/wire": driver("drivers/wire"),
     "drivers/device": driver("drivers/device"),
-    # The one that knows what is estimated: for who publishes it, and for who hears or reads what was published.
+    # The only driver folder that knows estimates: it converts them to messages and back.
     "drivers/estimates": driver("drivers/estimates", "slam/estimator"),
     "drivers/storage": driver("drivers/storage", "drivers/wire", "drivers/device"),
     "drivers/camera": driver("drivers/camera", "drivers/storage", "drivers/wire", "drivers/device"),
     "settings": Rule(("settings", "base", "slam"), (STANDARD, EIGEN, EXPECTED, TOML, FMT)),
-    "picture": pure("picture", "slam/camera", "slam/sample", "slam/geometry", externals=(OPENCV,)),
-    # What was estimated in ROS's words, on no wire: values and bytes, for recordings and for the bridge to ROS 2.
-    "ros": Rule(("ros", "base", "slam/estimator", "slam/sample", "slam/geometry"), (STANDARD, EIGEN)),
-    # What azimuthd sends over LCM, for ROS 2: a process of its own. What knows DDS stands outside of the bridge.
-    "ros2": Rule(("ros2", "ros", "base", "drivers", "settings/command_line", "slam/estimator", "slam/sample",
-                  "slam/geometry"), (ANYTHING,)),
-    "ros2/bridge": Rule(("ros2/bridge", "ros", "base", "drivers/estimates", "drivers/wire", "drivers/lcm", "settings/command_line",
-                         "slam/estimator", "slam/sample", "slam/geometry"),
-                        (STANDARD, EIGEN, MESSAGES, FMT, CLI11, re.compile(r"net/if\.h"))),
-    # What the programs share of their command lines.
+    # Pictures of the detections, for people.
+    "drivers/picture": pure("drivers/picture", "slam/camera", "slam/sample", "slam/geometry", externals=(OPENCV,)),
+    # Estimates as ROS messages, for recordings and for the bridge to ROS 2: values and bytes, without the ROS
+    # libraries.
+    "drivers/ros": Rule(("drivers/ros", "base", "slam/estimator", "slam/sample", "slam/geometry"), (STANDARD, EIGEN)),
+    # azimuth-ros2 is a separate process. Only the part outside the bridge uses DDS.
+    "tools/ros2": Rule(("tools/ros2", "base", "drivers", "settings/command_line", "slam/estimator", "slam/sample", "slam/geometry"),
+                       (ANYTHING,)),
+    "tools/ros2/bridge": Rule(("tools/ros2/bridge", "drivers/ros", "base", "drivers/estimates", "drivers/wire", "drivers/lcm",
+                               "settings/command_line", "slam/estimator", "slam/sample", "slam/geometry"),
+                              (STANDARD, EIGEN, MESSAGES, FMT, CLI11, re.compile(r"net/if\.h"))),
+    # Common parts of the programs' command lines.
     "settings/command_line": Rule(("settings", "base"), (STANDARD, CLI11, FMT, JSON)),
     "sim": Rule(("sim", "base", "slam", "settings", "drivers"), (ANYTHING,)),
-    "tools": Rule(("tools", "ros", "sim", "picture", "base", "slam", "settings", "drivers"), (ANYTHING,)),
-    # What is shown of a running daemon: from messages to events, without a socket.
+    "tools": Rule(("tools", "sim", "base", "slam", "settings", "drivers"), (ANYTHING,)),
+    # The view of a running daemon turns messages into events, without sockets.
     "tools/view": Rule(("tools/view", "base", "drivers/lcm", "drivers/wire", "drivers/estimates", "settings", "slam"),
                        (STANDARD, EIGEN, EXPECTED, MESSAGES, FMT, JSON), frozenset(THREADS | {"fstream", "iostream", "cstdio"})),
-    # The only folder that has threads, and the only one that joins drivers and estimators live.
-    "daemon": Rule(("daemon", "picture", "base", "slam", "settings", "drivers"), (ANYTHING,), frozenset(), ()),
+    # The only folder with threads, and the only one that combines drivers and estimators in real time.
+    "daemon": Rule(("daemon", "base", "slam", "settings", "drivers"), (ANYTHING,), frozenset(), ()),
 }
 
 INCLUDE = re.compile(r'\s*#\s*include\s*([<"])([^>"]+)[>"]')
@@ -124,13 +127,13 @@ COMMENT_OR_LITERAL = re.compile(
 
 
 def rule_of(path):
-    """The rule for a file, by its path relative to the tree."""
+    """The rule for a file, given by its path relative to the tree."""
     folders = [folder for folder in RULES if path.startswith(folder + "/")]
     return RULES[max(folders, key=len)] if folders else None
 
 
 def include_problem(rule, path, bracket, header):
-    """Why this include is wrong; None when it is right."""
+    """Returns why an include is wrong, or None."""
     if bracket == '"':
         if header.startswith("."):
             return f'"{header}": write the path from the top of the tree'
@@ -145,11 +148,11 @@ def include_problem(rule, path, bracket, header):
     return f"<{header}> may not be included from {Path(path).parent}"
 
 
-INTERNAL = re.compile(r"\bInternal to ([\w/]+)")  # as a header's comment says
+INTERNAL = re.compile(r"\bInternal to ([\w/]+)")  # a phrase in the comments of headers
 
 
 def internal_problem(tree, path, header):
-    """Why a header of ours may not be included by a file elsewhere; None when it may."""
+    """Returns why a file may not include a header of this project because it is internal to another folder, or None."""
     file = tree / header
     said = INTERNAL.search(file.read_text(encoding="utf-8")) if file.is_file() else None
     if said is None or path.startswith(said[1].rstrip("/") + "/"):
@@ -162,7 +165,7 @@ def blank(match):
 
 
 def check_source(tree, path):
-    """Violations in one source file: (line, message)."""
+    """Yields (line, message) of the violations in a source file."""
     rule = rule_of(path)
     if rule is None:
         return
@@ -180,7 +183,7 @@ def check_source(tree, path):
 
 
 def check_targets(tree, folder):
-    """Sources are listed by hand in the CMakeLists.txt of their own folder: (line, message)."""
+    """Checks that sources are listed by hand in the CMakeLists.txt of their folder; yields (line, message)."""
     sources = sorted(source.name for source in folder.glob("*.cpp"))
     if not sources:
         return

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Checks that no two files define a type of the same name in the same namespace. A program that both were linked into
-would keep one destructor for the two, and call it for objects of the other layout; no compiler or linker says so.
+"""Checks that no two files define a type of the same name in the same namespace. A program that links both would use
+the destructor of one type for objects of the other layout, without a message of the compiler or the linker.
 
 usage: one_definition.py SOURCE_TREE      exit code 0: clean, 1: violations, one `file:line: message` each
 """
@@ -13,9 +13,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 import tree_check  # noqa: E402
 from include_rules import COMMENT_OR_LITERAL, RULES, blank  # noqa: E402
 
-FOLDERS = sorted({folder.split("/")[0] for folder in RULES} | {"tests", "bench", "examples"})
+FOLDERS = sorted({folder.split("/")[0] for folder in RULES} | {"tests", "docs"})
 
-# What a brace opens is what stands between it and the last brace or semicolon before it.
+# The text between a brace and the previous brace or semicolon tells what the brace opens.
 TOKEN = re.compile(r"[{};]")
 PREPROCESSOR = re.compile(r"^[ \t]*#(?:[^\n]*\\\n)*[^\n]*", re.MULTILINE)
 NAMESPACE = re.compile(r"\bnamespace\b\s*([\w:]*)\s*$")
@@ -26,20 +26,20 @@ TEMPLATE = re.compile(r"\btemplate\s*<(?:[^<>]|<[^<>]*>)*>")
 
 
 def type_defined(head):
-    """The name of the type whose body follows `head`; None when that is the body of something else."""
+    """The name of the type whose body follows `head`; None if `head` does not define a type."""
     found = TYPE.search(TEMPLATE.sub("", head))
     return found[1] if found else None
 
 
 def definitions(text):
-    """Types that a file defines in named namespaces, not within others: (line, qualified name)."""
+    """Yields (line, qualified name) of the types that a file defines in named namespaces, without nested types."""
     code = PREPROCESSOR.sub(blank, COMMENT_OR_LITERAL.sub(blank, text))
-    scopes = []  # of each open brace: the namespace, "" for one without a name, None for what is no namespace
+    scopes = []  # for each open brace its namespace; "" for an unnamed one, None if it opens no namespace
     start = 0
     for token in TOKEN.finditer(code):
         head = code[start:token.start()]
         start = token.end()
-        in_namespace = all(scopes)  # names in a namespace without a name are the file's own
+        in_namespace = all(scopes)  # names in an unnamed namespace are local to the file
         line = code.count("\n", 0, token.start()) + 1
         if token.group() == "}":
             if scopes:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Proves that the check of names bites: each second type of a name is found, and what only looks like one is not."""
+"""Tests the check of type names: it finds each second type of a name, and no code that only resembles one."""
 
 import sys
 import unittest
@@ -23,7 +23,8 @@ using Lamps = Lamp*;
 inline Lamp make_lamp() { return {}; }
 }  // namespace azimuth
 """,
-    # The same names within another type, in another namespace or in the file's own, declared, said and specialised.
+    # Uses of the same names that are allowed: nested types, other namespaces, unnamed namespaces, declarations and
+    # specialisations.
     "slam/ekf/others.hpp": """#pragma once
 #define HEALTH struct Health {};
 namespace azimuth {
@@ -44,7 +45,7 @@ struct Lamp* find(struct Lamp* lamp);
     "tools/lens_fit/lens.cpp": "namespace azimuth {\nnamespace {\nstruct Lamp {};\n}\nvoid f() { struct Lamp {}; }\n}\n",
 }
 
-BAD = [  # text after the first line, the name that the message gives
+BAD = [  # text after the first line, and the name in the message
     ("namespace azimuth {\nstruct Lamp {};\n}", "azimuth::Lamp"),
     ("namespace azimuth {\nclass Lamp final : public Base {};\n}", "azimuth::Lamp"),
     ("namespace azimuth {\ntemplate <class T, class U = V<T>>\nclass Lamp {};\n}", "azimuth::Lamp"),

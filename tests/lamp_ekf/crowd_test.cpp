@@ -10,7 +10,7 @@
 namespace azimuth {
 namespace {
 
-/// Anywhere above the robot, never twice in the same place.
+/// Adds reflections at random directions above the robot, new ones in each call.
 void add_reflections(BearingSet& image, int count, RandomDraws& draws) {
   for (int k = 0; k < count; ++k)
     image.bearings.push_back(
@@ -42,7 +42,7 @@ TEST(LampEkfCrowd, HasOnlySoManyLampsOnProbationFromAllRound) {
   for (int k = 0; k < 36; ++k) image.bearings.push_back({.azimuth_rad = -3.1 + 0.17 * k, .elevation_rad = 0.8});
   ekf.update(image);
   ASSERT_EQ(ekf.lamps().size(), 12u);
-  std::array<int, 4> begun{};  // by quarters of the horizon
+  std::array<int, 4> begun{};  // new lamps by quarters of the horizon
   for (const Lamp& lamp : ekf.lamps()) {
     const Eigen::Vector3d p = ekf.filter().point(lamp.at).p_map_lamp_m;
     ++begun[static_cast<std::size_t>((std::atan2(p.y(), p.x()) + kPi) / (kPi / 2.0))];

@@ -1,4 +1,4 @@
-// What the lamp EKF does when things are not as in a hall where all goes well.
+// The lamp EKF in disturbed situations.
 
 #include <algorithm>
 #include <cmath>
@@ -62,7 +62,7 @@ TEST(LampEkfEstimator, AStandingRobotForgetsAndConfirmsNothing) {
   LampDrive drive(simulated_hall(7));
   drive.to(kOneRound);
   const std::size_t mapped = drive.estimate().landmarks.size();
-  // For minutes the same image, in which some lamps are missed, with two reflections in it.
+  // The same image for minutes. It misses some lamps and contains two reflections.
   BearingSet image = drive.run.sets[kOneRound - 1];
   image.bearings.resize(image.bearings.size() - 2);
   for (const double azimuth_rad : {0.3, 2.4})
@@ -101,7 +101,7 @@ TEST(LampEkfEstimator, AKidnappedRobotSpoilsNoMapAndSaysSo) {
   LampDrive drive(simulated_hall(9));
   drive.to(kOneRound);
   const std::vector<int> before = lamps_mapped(drive);
-  // Carried across the hall and turned round: the ceiling is that of another place.
+  // The robot is carried across the hall and turned, so that it sees the ceiling of another place.
   std::vector<BearingSet> there;
   bool said = false;
   for (std::size_t i = 0; i < 40; ++i) {
@@ -120,7 +120,7 @@ TEST(LampEkfEstimator, AKidnappedRobotSpoilsNoMapAndSaysSo) {
 TEST(LampEkfEstimator, ASlipOfTheWheelsLeavesNoLampMappedTwice) {
   for (const std::uint64_t seed : {1u, 6u, 12u, 23u}) {
     LampDrive drive(simulated_hall(seed));
-    Motion& slip = drive.run.motions[170];  // half a metre that the odometry knows nothing of
+    Motion& slip = drive.run.motions[170];  // a slip of half a metre that odometry does not measure
     slip.T_start_end = slip.T_start_end * Pose2{0.4, 0.2, 0.05};
     drive.to(drive.run.sets.size());
     const std::vector<int> mapped = lamps_mapped(drive);

@@ -1,4 +1,4 @@
-// The lamp EKF in halls with lamps that all look alike: the second paper's experiment (SPEC II.10, part IV).
+// The lamp EKF in halls with lamps that all look alike: the second paper's experiment (mathematics II.10, part IV).
 
 #include <algorithm>
 #include <cstdlib>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kRecordedSeeds = 10;
 
-/// More of them (100, say) take a few seconds.
+/// The number of seeds, from the environment variable AZIMUTH_LAMP_SEEDS. A hundred seeds take a few seconds.
 int seeds() {
   const char* wanted = std::getenv("AZIMUTH_LAMP_SEEDS");
   return wanted != nullptr ? std::max(1, std::atoi(wanted)) : 12;
@@ -63,7 +63,7 @@ TEST(LampEkfHall, ClosesEveryLoopInSimulatedHalls) {
       summarise("simulated", seeds(), [](int seed) { return simulated_hall(static_cast<std::uint64_t>(seed + 1)); });
   EXPECT_GE(outcome.closed, 0.95 * outcome.runs);
   EXPECT_LE(outcome.position_mean_m, 0.10);
-  EXPECT_GT(outcome.anees, 0.8);  // the rig says nothing of itself, so it is taken to be off by as much as rigs are
+  EXPECT_GT(outcome.anees, 0.8);  // the rig gives no calibration errors, so the filter assumes typical ones
   EXPECT_LT(outcome.anees, 4.0);
 }
 

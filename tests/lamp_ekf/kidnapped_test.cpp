@@ -11,25 +11,25 @@
 namespace azimuth {
 namespace {
 
-constexpr std::size_t kTaken = 160;    // images: a round is mapped
-constexpr std::size_t kNearest = 180;  // where it is put down at the earliest
+constexpr std::size_t kTaken = 160;    // image number; a round is mapped by then
+constexpr std::size_t kNearest = 180;  // first image at which it may be put down
 constexpr double kPatience_m = 5.0;    // ten seconds of driving
 constexpr double kWrong_m = 0.5, kOff_m = 0.8;
 
-/// More of them (100, say) take some seconds.
+/// The number of seeds, from the environment variable AZIMUTH_LAMP_SEEDS. A hundred seeds take some seconds.
 int kidnapped_seeds() {
   const char* wanted = std::getenv("AZIMUTH_LAMP_SEEDS");
   return wanted != nullptr ? std::max(1, std::atoi(wanted)) : 6;
 }
 
 struct Kidnapped {
-  double noticed_m = -1.0, found_m = -1.0;  ///< driven since; negative: never
-  bool wrong = false;                       ///< said to be found where it is not
-  double error_m = 0.0;                     ///< at the end
+  double noticed_m = -1.0, found_m = -1.0;  ///< Distance driven until then; negative: never
+  bool wrong = false;                       ///< Whether a wrong pose was reported as found
+  double error_m = 0.0;                     ///< Position error at the end
   std::size_t lamps = 0;
 };
 
-/// Switched off while it is carried: the odometry tells nothing of it.
+/// The robot is switched off while it is carried, so odometry does not measure the motion.
 Kidnapped kidnap(const LampRun& run, std::size_t put_down) {
   Kidnapped outcome;
   LampEkfEstimator ekf(run.rig, {});

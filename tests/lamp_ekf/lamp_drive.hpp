@@ -9,9 +9,9 @@
 
 namespace azimuth {
 
-inline constexpr std::size_t kOneRound = 150;  // images
+inline constexpr std::size_t kOneRound = 150;  // number of images
 
-/// A run through an estimator that can be stopped anywhere.
+/// A run through an estimator, which can be stopped at any image.
 struct LampDrive {
   explicit LampDrive(LampRun a_run, const LampEkfSettings& settings = {})
       : run(std::move(a_run)), ekf(run.rig, settings) {}
@@ -36,7 +36,7 @@ struct LampDrive {
   std::size_t next = 0;
 };
 
-/// The map's lamps in the hall, each with the lamp nearest to it.
+/// The true lamp nearest to each lamp of the map, sorted.
 inline std::vector<int> lamps_mapped(const LampDrive& drive) {
   std::vector<int> mapped;
   for (const LandmarkEstimate& landmark : drive.estimate().landmarks) {

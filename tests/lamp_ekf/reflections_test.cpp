@@ -1,4 +1,5 @@
-// A crowd of reflections from the first image on: a map of no real lamp must not come of it, nor be called tracking.
+// Many reflections from the first image on. They must neither make a map without real lamps nor be reported as
+// tracking.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -23,7 +24,7 @@ CrowdOutcome drive_all(const LampCrowd& crowd) {
   return sum;
 }
 
-/// The pose is then that of odometry, and as certain.
+/// The pose and its covariance must stay those of odometry.
 TEST(LampEkfReflections, AloneAreNeverCalledTrackingAndMoveNothing) {
   const CrowdOutcome blind = drive_all({"nothing", false, 0});
   for (const LampCrowd& crowd :
@@ -44,7 +45,7 @@ TEST(LampEkfReflections, OneThatRidesAlongIsNotCalledTracking) {
   EXPECT_EQ(outcome.lamps + outcome.phantoms, 0);
 }
 
-/// Nor do they make the run worse than it is without them.
+/// Reflections must not make the run worse than a run without them.
 TEST(LampEkfReflections, AmongLampsAreNotMapped) {
   const CrowdOutcome none = drive_all({"lamps alone", true, 0});
   for (const LampCrowd& crowd :

@@ -1,4 +1,4 @@
-// LampEkfEstimator: maps of lamps in space that outlive it.
+// LampEkfEstimator: saving and loading maps of lamps in space.
 
 #include <algorithm>
 #include <cmath>
@@ -14,9 +14,9 @@
 namespace azimuth {
 namespace {
 
-constexpr std::size_t kSaved = 160;  // images, more than a round
+constexpr std::size_t kSaved = 160;  // number of images, more than a round
 constexpr std::size_t kElsewhere = 210;
-constexpr double kFarOff_m = 0.8;  // of an irregular hall
+constexpr double kFarOff_m = 0.8;  // irregularity of the hall's grid of lamps
 
 using Robot = test::DrivenLamps<LampEkfEstimator>;
 
@@ -51,7 +51,7 @@ TEST_F(SavedLampMap, HoldsLampsInSpaceWithTheirJointCovariance) {
 }
 
 TEST_F(SavedLampMap, ComesBackFromAFileAndGoesOnAsIfNothingHadHappened) {
-  // WHEN one robot goes on from the map and the pose in the file, and another was never stopped
+  // WHEN one robot continues from the map and the pose in the file, and another one drives without a restart
   std::vector<std::byte> file;
   ASSERT_EQ(implausible(map_), std::nullopt);
   encode(map_, file);
@@ -63,7 +63,7 @@ TEST_F(SavedLampMap, ComesBackFromAFileAndGoesOnAsIfNothingHadHappened) {
       robot_of(run_, {.map = &loaded, .pose_known = true, .sigma_position_m = 0.0, .sigma_heading_rad = 0.0}, kSaved);
   uninterrupted.to(run_.sets.size());
   restarted.to(run_.sets.size());
-  // THEN they agree: all that was lost are lamps on probation
+  // THEN both agree. Only lamps on probation are lost.
   const Estimate one = uninterrupted.estimate(), other = restarted.estimate();
   const Pose2 apart = inverse(one.T_map_body) * other.T_map_body;
   EXPECT_LT(apart.position().norm(), 0.01);
@@ -99,12 +99,12 @@ TEST_F(SavedLampMap, ForgivesARobotThatWasPushed) {
 
 TEST_F(SavedLampMap, ShowsARobotThatDoesNotKnowWhereItIs) {
   for (const MapMode mode : {MapMode::localise, MapMode::extend}) {
-    // GIVEN a robot that knows the map but not its place, and was carried far from where it had stopped
+    // GIVEN a robot that knows the map but not its pose, and that was carried far away
     Robot robot = robot_of(run_, {.map = &map_, .mode = mode}, kElsewhere);
     ASSERT_TRUE(robot.estimator.searching());
     MapSnapshot unwanted;
     EXPECT_FALSE(robot.estimator.save_map(unwanted)) << "a robot that is lost has nothing to add to its map";
-    // WHEN it drives on
+    // WHEN the robot drives on
     double worst_m = 0.0, found_after_m = 0.0;
     for (std::size_t i = kElsewhere; i < run_.sets.size(); ++i) {
       robot.step();
@@ -117,7 +117,7 @@ TEST_F(SavedLampMap, ShowsARobotThatDoesNotKnowWhereItIs) {
         worst_m = std::max(worst_m, robot.error_m());
       }
     }
-    // THEN it is found within metres, where it is
+    // THEN it is relocalised within metres, at its true pose
     ASSERT_FALSE(robot.estimator.searching());
     EXPECT_LT(found_after_m, 5.0);
     EXPECT_LT(worst_m, 0.5);
@@ -144,11 +144,11 @@ class SavedMapOfARegularGrid : public SavedLampMap {
 };
 
 TEST_F(SavedMapOfARegularGrid, IsNoPlaceToGuessIn) {
-  // GIVEN a hall that looks the same turned by half a turn
+  // GIVEN a hall that looks the same after half a turn
   Robot robot = robot_of(run_, {.map = &map_}, kElsewhere);
-  // WHEN a robot that does not know its place drives in it
+  // WHEN a robot that does not know its pose drives in the hall
   robot.to(run_.sets.size());
-  // THEN it may say nothing, or be right, but not be somewhere else
+  // THEN the robot may stay lost or find the right pose, but must not report a wrong one
   const Estimate last = robot.estimate();
   if (robot.estimator.searching()) {
     EXPECT_EQ(last.health, Health::lost);

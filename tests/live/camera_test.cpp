@@ -1,4 +1,4 @@
-// The daemon on a robot whose camera sends images: bearings are found in them on the way.
+// The daemon on a robot whose camera sends images, in which the daemon finds the bearings.
 
 #include <fmt/format.h>
 #include <fstream>
@@ -53,7 +53,7 @@ TEST_F(Camera, LandmarksFoundInImagesAreMapped) {
   EXPECT_THAT(daemon->standard_error(), HasSubstr(fmt::format("digest {:016x}", log.replayed.digest)));
 }
 
-/// The rig says one size, the camera sends another.
+/// The camera's image size differs from the rig's.
 TEST_F(Camera, ImagesOfTheWrongSizeAreNamedAndEndNothing) {
   replace_in(rig_, "width_px = 1024", "width_px = 1022");
   test::Robot robot(folder(), kMirror);

@@ -27,7 +27,7 @@ Run loaded(const fs::path& session) {
   return *std::move(run);
 }
 
-/// As `azimuth replay` does it, with what the log says of rig and configuration.
+/// Replays the run as `azimuth replay` does, with the rig and the configuration from the log.
 ReplayResult replay_of(const Run& run) {
   const FileResult<Rig> rig = read_rig(run.rig_toml, run.rig_file);
   const FileResult<Configuration> configuration = read_configuration(run.configuration_toml, run.configuration_file);
@@ -114,7 +114,7 @@ void expect_unmoved(const map_chunk_t& before, const map_chunk_t& after) {
   }
 }
 
-/// The first pose fixed the map where the robot then was.
+/// The map's frame is defined by the first pose.
 void expect_at_true_place(const RecordedMessages& messages, const Run& truth) {
   ASSERT_FALSE(messages.poses.empty());
   const pose_cov_t &first = messages.poses.front(), &last = messages.poses.back();

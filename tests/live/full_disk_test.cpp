@@ -1,5 +1,5 @@
-// The field log may not grow: whoever listens is told, gets poses as before, and the log goes on when it may. Run by
-// in_namespace.sh, so that LCM's messages go nowhere else.
+// The field log cannot grow. Subscribers are told, poses continue, and the log resumes when there is room. Run by
+// in_namespace.sh, so that LCM messages do not leave the test.
 
 #include <azimuth/pose_cov_t.hpp>
 #include <azimuth/status_t.hpp>
@@ -19,19 +19,19 @@ namespace {
 using testing::HasSubstr;
 
 constexpr char kUrl[] = "udpm://239.255.76.67:7667?ttl=0";
-constexpr rlim_t kSmallFile_bytes = 30'000;  // some seconds
+constexpr rlim_t kSmallFile_bytes = 30'000;  // some seconds of recording
 constexpr std::int64_t kPosesMeanwhile = 20;
 
-/// Hears what the daemon sends, as other programs do.
+/// Receives the daemon's messages, as other programs do.
 class Listener {
  public:
   Listener() {
-    // Functions, not members: GCC 12's UBSan reports a null pointer in LCM's own call of a member, which is not there.
+    // Functions instead of members: GCC 12's UBSan falsely reports a null pointer in LCM's own call of a member.
     lcm_.subscribeFunction(std::string(channel::kStatus), hear_status, this);
     lcm_.subscribeFunction(std::string(channel::kPose), hear_pose, this);
   }
 
-  /// Listens until it is true; false when it never is.
+  /// Listens until the condition is true; returns false on a timeout.
   template <class Condition>
   bool until(const Condition& condition) {
     constexpr int kWait_ms = 50;
@@ -54,7 +54,7 @@ class Listener {
   lcm::LCM lcm_{kUrl};
 };
 
-/// As a full disk does, but for this process only: writing beyond that fails.
+/// Makes writes beyond `bytes` fail, as on a full disk, but for this process only.
 void limit_files(pid_t pid, rlim_t bytes) {
   const rlimit limit{.rlim_cur = bytes, .rlim_max = RLIM_INFINITY};
   ASSERT_EQ(::prlimit(pid, RLIMIT_FSIZE, &limit, nullptr), 0) << std::strerror(errno);

@@ -1,4 +1,5 @@
-// A robot over TCP that hangs for seconds, and never listens there again once it was hung up on: in real time.
+// A robot over TCP that hangs for seconds and, once its client disconnects, never listens on the same port again. Runs
+// in real time.
 
 #include <algorithm>
 #include <arpa/inet.h>
@@ -31,8 +32,8 @@ sockaddr_in loopback(std::uint16_t port) {
 
 UniqueFd tcp_socket() { return UniqueFd(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)); }
 
-/// Serves one client with what a robot elsewhere says. When that client hangs up it is over: for whoever knows this
-/// port alone, a server that listens at the next one is no more.
+/// Forwards a robot's connection to one client and ends when that client disconnects. For a client that knows only this
+/// port, a server that moves to the next port is gone.
 class OneClientServer {
  public:
   explicit OneClientServer(std::uint16_t robot_port) : robot_(tcp_socket()), listener_(tcp_socket()) {
@@ -54,7 +55,7 @@ class OneClientServer {
   OneClientServer(const OneClientServer&) = delete;
   OneClientServer& operator=(const OneClientServer&) = delete;
 
-  /// Neither hears nor says anything meanwhile.
+  /// Forwards nothing in either direction for this time.
   void hang(std::chrono::milliseconds duration) {
     hangs_ = true;
     std::this_thread::sleep_for(duration);
@@ -71,7 +72,8 @@ class OneClientServer {
                                   pollfd{robot_.get(), POLLIN, 0}};
       ::poll(ready.data(), ready.size(), 5);
       if (hangs_) {
-        if (ready[1].revents != 0) pass(robot_, UniqueFd());  // a simulator that stands still says nothing later either
+        // discards the robot's output, because a simulator at standstill does not send it later either
+        if (ready[1].revents != 0) pass(robot_, UniqueFd());
         std::this_thread::sleep_for(1ms);
         continue;
       }

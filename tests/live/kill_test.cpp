@@ -1,4 +1,4 @@
-// kill -9 of the daemon: neither the robot nor the recording is the worse for it.
+// SIGKILL of the daemon harms neither the robot nor the recording.
 
 #include <algorithm>
 #include <cstdlib>
@@ -14,7 +14,7 @@ using namespace std::chrono_literals;
 
 constexpr int kStartsAtTheRaisedBaud = 10;
 
-/// How often; environment variable AZIMUTH_KILLS. Nightly: 100.
+/// The number of kills, from the environment variable AZIMUTH_KILLS. The nightly run uses 100.
 int kills() {
   const char* const wanted = std::getenv("AZIMUTH_KILLS");
   return wanted ? std::max(4, std::atoi(wanted)) : 30;
@@ -22,7 +22,7 @@ int kills() {
 
 using Kill = test::Live;
 
-/// Each leaves a session open that the next one has to find, at a baud rate it is not told.
+/// Each killed daemon leaves a session open. The next daemon must find it, at a baud rate that it does not know.
 void expect_odometry_after_each_kill(const std::filesystem::path& folder, const std::filesystem::path& rig,
                                      int starts) {
   for (int start = 1; start <= starts; ++start) {

@@ -1,5 +1,5 @@
 #pragma once
-// What the tests of the running daemon have in common.
+// Fixtures shared by the tests of the running daemon.
 
 #include <gtest/gtest.h>
 #include <memory>
@@ -9,26 +9,26 @@
 
 namespace azimuth::test {
 
-/// azimuthd with the options of a robot's owner: the simulated robot's configuration, and a field log.
+/// azimuthd with a typical robot's options: the simulated robot's configuration and a field log.
 class Daemon : public ChildProcess {
  public:
-  /// The robot need not be there yet. Nothing goes to the network unless `lcm_url` says so.
+  /// The robot need not run yet. No message leaves the process unless `lcm_url` says so.
   Daemon(const std::filesystem::path& folder, const std::filesystem::path& rig,
          const std::vector<std::string>& more = {}, const std::string& lcm_url = "memq://");
 
-  /// Waits until it has logged or, when asked for its status, shown `text` so often.
+  /// Waits until the daemon has logged `text`, or shown it in its status, the given number of times.
   bool logs(const std::string& text, std::size_t times = 1) const;
-  /// Waits until odometry comes for the n-th time.
+  /// Waits until odometry has come for the n-th time.
   bool has_odometry(std::size_t times = 1) const { return logs("odometry comes from", times); }
-  /// Waits until so many landmarks are mapped; needs --status.
+  /// Waits until `count` landmarks are mapped; needs --status.
   bool has_landmarks(int count) const;
-  /// SIGTERM, and its exit code.
+  /// Sends SIGTERM and returns the exit code.
   std::optional<int> stop();
-  /// Ends it as nothing could prevent.
+  /// Kills the daemon with SIGKILL.
   void kill();
 };
 
-/// A folder, and the rig of the robot that will be there.
+/// A folder, and the rig of the robot that the test starts in it.
 class Live : public ::testing::Test {
  protected:
   std::filesystem::path folder() const { return folder_.path(); }

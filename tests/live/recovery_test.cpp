@@ -1,4 +1,4 @@
-// Trouble under way: what was known stays known, and the daemon goes on by itself.
+// Trouble during a drive: the map and the pose are kept, and the daemon continues by itself.
 
 #include <algorithm>
 #include <gmock/gmock.h>
@@ -12,13 +12,13 @@ namespace {
 using namespace std::chrono_literals;
 using testing::HasSubstr;
 
-constexpr int kLandmarks = 8;          // mapped before the trouble
-constexpr auto kDriveAfterwards = 3s;  // sees each landmark from another side
+constexpr int kLandmarks = 8;          // landmarks mapped before the trouble
+constexpr auto kDriveAfterwards = 3s;  // long enough to see each landmark from another side
 constexpr Duration kRecovery = 2s;     // docs/architecture.md, "When something fails"
 
 class Recovery : public test::Live {
  protected:
-  /// Drives until there is a map, makes the trouble, waits until odometry comes again and drives on.
+  /// Drives until there is a map, causes the trouble, waits until odometry resumes, and drives on.
   void drive_through(const std::string& trouble) {
     const auto daemon = recording_daemon();
     ASSERT_TRUE(daemon->has_landmarks(kLandmarks)) << daemon->standard_error();
@@ -30,7 +30,7 @@ class Recovery : public test::Live {
     published_ = test::published(test::only_session(records()));
   }
 
-  /// Nothing worse than what the trouble explains: neither pose nor map were lost for a moment.
+  /// Expects that neither the pose nor the map was lost at any time.
   void expect_nothing_forgotten(Stamp trouble) const {
     for (const pose_cov_t& pose : published_.poses) ASSERT_NE(pose.health, pose_cov_t::HEALTH_LOST) << pose.utime;
     EXPECT_EQ(published_.poses.back().health, pose_cov_t::HEALTH_TRACKING);
@@ -48,7 +48,7 @@ class Recovery : public test::Live {
   test::RecordedMessages published_;
 };
 
-/// The first reading that is not of the first origin: the odometer began anew.
+/// The first reading with a new origin, after the odometer restarted.
 const OdometryReading* first_of_new_origin(const std::vector<OdometryReading>& readings) {
   const auto found = std::ranges::find_if(
       readings, [&](const OdometryReading& reading) { return reading.origin != readings.front().origin; });
@@ -90,7 +90,8 @@ TEST_F(Recovery, ACameraAndRobotThatDiedComeBack) {
   ASSERT_EQ(robot_.end(SIGKILL), 128 + SIGKILL);
   ASSERT_TRUE(daemon->logs("warning camera: ")) << daemon->standard_error();
 
-  // It stands at the start of its path again, where the daemon does not expect it: only that poses come is promised.
+  // The new robot stands at the start of its path, where the daemon does not expect it. Only the arrival of poses is
+  // required.
   test::Robot another(folder());
   ASSERT_TRUE(daemon->has_odometry(2)) << daemon->standard_error();
   ASSERT_TRUE(daemon->logs("camera: running", 2)) << daemon->standard_error();

@@ -1,4 +1,4 @@
-// SIGHUP to the daemon of a robot that drives on meanwhile.
+// SIGHUP to the daemon while its robot drives on.
 
 #include <algorithm>
 #include <csignal>
@@ -22,7 +22,7 @@ TEST_F(ReloadLive, KeepsPoseAndMapAndEachSessionReplays) {
   ASSERT_TRUE(daemon->has_odometry()) << daemon->standard_error();
   ASSERT_TRUE(daemon->has_landmarks(5)) << daemon->standard_error();
   std::this_thread::sleep_for(3s);
-  // WHEN its daemon reads its configuration anew while it drives on
+  // WHEN its daemon reads its configuration anew while the robot drives on
   for (std::size_t reload = 1; reload <= kReloads; ++reload) {
     daemon->signal(SIGHUP);
     ASSERT_TRUE(daemon->logs("map: goes on with its", reload)) << daemon->standard_error();
@@ -31,7 +31,7 @@ TEST_F(ReloadLive, KeepsPoseAndMapAndEachSessionReplays) {
   }
   EXPECT_EQ(daemon->stop(), 0);
   EXPECT_EQ(robot.end(), 0);
-  // THEN each session replays by itself, and none begins with a robot that looks for itself
+  // THEN each session replays by itself, and no session has a pose with health `lost`
   std::vector<std::filesystem::path> sessions;
   for (const auto& entry : std::filesystem::directory_iterator(records())) sessions.push_back(entry.path());
   std::ranges::sort(sessions);
@@ -46,7 +46,7 @@ TEST_F(ReloadLive, KeepsPoseAndMapAndEachSessionReplays) {
     const auto is_lost = [](const pose_cov_t& pose) { return pose.health == pose_cov_t::HEALTH_LOST; };
     EXPECT_TRUE(std::ranges::none_of(test::published(session).poses, is_lost)) << session;
   }
-  test::expect_at_true_place(ends, robot.truth());  // of the very first pose
+  test::expect_at_true_place(ends, robot.truth());  // relative to the very first pose
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A daemon that is stopped, or killed, and started again while its robot drives on: it knows where the robot is.
+// A daemon that is stopped or killed and restarted while its robot drives on: it still knows the robot's pose.
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -23,7 +23,7 @@ constexpr std::chrono::seconds kSaveInterval{5};
 constexpr Duration kPosesAgain = 3s;
 constexpr double kThreeSigmaChi2 = 14.16, kFourSigmaChi2 = 22.06;  // 99.73 and 99.994 % of three dimensions
 
-/// How often, by an environment variable.
+/// The number of repetitions from an environment variable, or the default `otherwise`.
 int times(const char* variable, int otherwise) {
   const char* const wanted = std::getenv(variable);
   return wanted ? std::max(2, std::atoi(wanted)) : otherwise;
@@ -62,7 +62,7 @@ class Restarts : public test::Live {
   }
 };
 
-/// The first pose of a session, beside where the robot really was then.
+/// The first pose of a session and its error relative to the robot's true pose.
 struct FirstPose {
   pose_cov_t pose;
   Stamp stamp{};
@@ -78,9 +78,9 @@ FirstPose first_pose(const std::filesystem::path& first_session, const std::file
   return {first, stamp, chi2(T_map_world * test::true_pose(truth, stamp), first)};
 }
 
-/// What came before one start.
+/// The circumstances of one start.
 struct Start {
-  Stamp ended{};  ///< the last process before it
+  Stamp ended{};  ///< When the last process before it ended
   bool was_killed = false;
 };
 
@@ -90,13 +90,13 @@ double median(std::vector<double> values) {
 }
 
 TEST_F(Restarts, KnowWhereTheRobotIsAtOnce) {
-  // GIVEN a robot that is tracked, and a map of it
+  // GIVEN a robot that is tracked, and a map of its surroundings
   test::Robot robot(folder());
   auto running = daemon(0);
   ASSERT_TRUE(running->has_landmarks(8)) << running->standard_error();
   ASSERT_TRUE(running->logs("the map is saved to")) << running->standard_error();
-  // WHEN its daemon ends again and again, every other time as nothing could prevent, and is started again at once; now
-  // and then that one is killed as well, before or after it has heard of the robot
+  // WHEN its daemon ends again and again, every other time by SIGKILL, and is restarted at once. Now and then the
+  // restarted daemon is killed as well, before or after it has received odometry.
   std::mt19937_64 random(13);
   std::uniform_int_distribution<int> life_ms(1500, 4000), short_life_ms(0, 1000);
   std::vector<Start> starts(static_cast<std::size_t>(restarts()));
@@ -126,7 +126,7 @@ TEST_F(Restarts, KnowWhereTheRobotIsAtOnce) {
   }
   ASSERT_EQ(running->stop(), 0);
   ASSERT_EQ(robot.end(), 0);
-  // THEN poses come again soon, and the first is where the robot is
+  // THEN poses resume soon, and the first one agrees with the robot's true pose
   const azimuth::Run truth = robot.truth();
   std::vector<double> away_s, off;
   for (std::size_t i = 0; i < starts.size(); ++i) {
@@ -149,7 +149,7 @@ TEST_F(Restarts, KnowWhereTheRobotIsAtOnce) {
       std::ranges::max(off), median(away_s), std::ranges::max(away_s));
 }
 
-/// Why a start would not know where the robot is, by what is on the disk; empty: it would.
+/// The reason why a start could not continue from the files on the disk; empty if it could.
 std::string why_no_pair(const std::filesystem::path& file) {
   const FileResult<LoadedMap> map = read_map(file);
   if (!map) return text(map.error());
@@ -162,21 +162,21 @@ std::string why_no_pair(const std::filesystem::path& file) {
   return found;
 }
 
-/// Daemons that are killed twice, one soon after the other, while their robot drives on.
+/// Daemons that are killed twice in quick succession while their robot drives on.
 class KilledTwice : public Restarts {
  protected:
-  /// Of each start that had a pose, beside the robot itself.
+  /// Checks the first pose of each start that had one against the robot's true pose.
   void expect_first_poses_right(int starts, const azimuth::Run& truth) const {
     std::vector<double> off;
     for (int start = 1; start <= starts; ++start) {
-      if (!std::filesystem::exists(records() / std::to_string(start))) continue;  // killed before it began one
+      if (!std::filesystem::exists(records() / std::to_string(start))) continue;  // killed before it began a session
       if (test::published(session(start)).poses.empty()) continue;
       const FirstPose first = first_pose(session(0), session(start), truth);
       EXPECT_NE(first.pose.health, pose_cov_t::HEALTH_LOST) << "start " << start;
       off.push_back(first.chi2);
       EXPECT_LT(off.back(), kFourSigmaChi2) << "start " << start;
     }
-    // By chance one in 370 is farther off than three standard deviations.
+    // By chance one pose in 370 is farther off than three standard deviations.
     const auto outside = std::ranges::count_if(off, [](double chi2) { return chi2 >= kThreeSigmaChi2; });
     EXPECT_LE(outside, 1 + starts / 200);
     EXPECT_GE(off.size(), static_cast<std::size_t>(starts / 2));
@@ -222,11 +222,11 @@ TEST_F(Restarts, KnowWhereTheRobotIsThoughNoMapCouldBeSavedForLong) {
   const rlimit limit{.rlim_cur = kNoMap_bytes, .rlim_max = RLIM_INFINITY};
   ASSERT_EQ(::prlimit(running->pid(), RLIMIT_FSIZE, &limit, nullptr), 0);
   ASSERT_TRUE(running->logs("the map is not saved")) << running->standard_error();
-  // WHEN it drives on for longer than a search would take, and the daemon is killed
+  // WHEN the robot drives on for longer than a relocalisation takes, and the daemon is killed
   std::this_thread::sleep_for(3 * kSaveInterval);
   const Stamp killed = now();
   running->kill();
-  // THEN how it went is on the disk to the last second, and the next start goes on
+  // THEN the odometry on the disk is less than a second old, and the next start continues from it
   EXPECT_EQ(why_no_pair(map()), "");
   const KeptRecords kept = read_kept_odometry(kept_odometry_file(map()));
   const auto is_fresh = [&](const auto& record) { return record && killed - record->since.reading.stamp < 1s; };
@@ -242,14 +242,14 @@ TEST_F(Restarts, KnowWhereTheRobotIsThoughNoMapCouldBeSavedForLong) {
 }
 
 TEST_F(Restarts, KnowWhereTheRobotIsOnAMapThatStaysAsItIs) {
-  // GIVEN a map, and a robot whose controller was restarted since
+  // GIVEN a map, and a robot whose controller has been restarted since
   test::Robot robot(folder());
   auto running = daemon(0);
   ASSERT_TRUE(running->has_landmarks(16)) << running->standard_error();
   ASSERT_EQ(running->stop(), 0);
   const std::vector<std::byte> before = read_map_only(map())->bytes;
   robot.obey("reboot=0xFF");
-  // WHEN its daemon only localises, and has found it
+  // WHEN its daemon only localises, and has relocalised the robot
   const std::vector<std::string> localise{"--set", "map.mode=localise"};
   running = daemon(1, localise);
   ASSERT_TRUE(running->logs("odometry does not go on from before the start")) << running->standard_error();
@@ -260,7 +260,7 @@ TEST_F(Restarts, KnowWhereTheRobotIsOnAMapThatStaysAsItIs) {
   ASSERT_TRUE(test::eventually(is_kept, test::kPatience)) << running->standard_error();
   std::this_thread::sleep_for(kSaveInterval);
   running->kill();
-  // THEN it knows where it is after a kill, and after a stop
+  // THEN the daemon knows the pose after a kill and after a stop
   for (const int start : {2, 3}) {
     running = daemon(start, localise);
     ASSERT_TRUE(running->logs("before the start")) << running->standard_error();

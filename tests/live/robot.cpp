@@ -81,7 +81,8 @@ Run Robot::truth() const {
   return *std::move(run);
 }
 
-/// Its lines begin with the time since its start, "[    1.645] session open", where the true drive begins.
+/// Each line of azimuth-sim begins with the time since its start, as in "[    1.645] session open". The true drive
+/// starts at the same instant.
 Stamp Robot::when(const std::string& news) const {
   const std::string all = told();
   const std::size_t at = all.find("] " + news);

@@ -1,4 +1,4 @@
-// The daemon on a robot where nothing goes wrong, from start to stop.
+// The daemon on a robot without any trouble, from start to stop.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -59,7 +59,7 @@ TEST_F(Running, WaitsForARobotThatIsNotThereYet) {
   const auto daemon = recording_daemon();
   const std::string trouble = "warning " + test::Robot::device(folder()).string() + ": open: No such file or directory";
   ASSERT_TRUE(daemon->logs(trouble)) << daemon->standard_error();
-  std::this_thread::sleep_for(3s);  // for some more attempts
+  std::this_thread::sleep_for(3s);  // time for more attempts
   EXPECT_EQ(test::occurrences(daemon->standard_error(), trouble), 1U) << daemon->standard_error();
   EXPECT_EQ(daemon->wait(0ms), std::nullopt);
 

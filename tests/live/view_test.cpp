@@ -1,5 +1,5 @@
-// azimuth view beside azimuthd, both as processes, in a network namespace of their own: who looks sees what another
-// subscriber hears.
+// azimuth view beside azimuthd, both as processes in a network namespace of their own. A viewer must see what another
+// subscriber receives.
 
 #include <algorithm>
 #include <azimuth/pose_cov_t.hpp>
@@ -26,7 +26,7 @@ using testing::HasSubstr;
 
 constexpr auto kPatience = 30s;
 
-/// All that another program hears.
+/// Collects the messages that another program receives.
 class Subscriber {
  public:
   Subscriber() {
@@ -39,7 +39,7 @@ class Subscriber {
     while (std::chrono::steady_clock::now() < end) lcm_.handleTimeout(5);
   }
 
-  std::map<std::int64_t, pose_cov_t> poses;  // by their numbers
+  std::map<std::int64_t, pose_cov_t> poses;  // by sequence number
   std::vector<status_t> statuses;
   std::vector<sightings_t> sightings;
 
@@ -76,14 +76,14 @@ class ViewTest : public testing::Test {
         std::vector<std::string>{AZIMUTHD, "--play", AZIMUTH_RUNS "/lab", "--speed", speed}, folder(name));
   }
 
-  /// A page's stream.
+  /// Opens the event stream as a page does.
   std::unique_ptr<HttpClient> look() const {
     auto client = std::make_unique<HttpClient>(port_);
     client->send(get("/events"));
     return client;
   }
 
-  /// Events so far, without the answer's head and the marks of its chunks.
+  /// The events so far, without the HTTP header and the chunk sizes.
   static std::vector<SeenEvent> events_of(const std::string& answer) {
     std::string rest = body_of(answer), text;
     for (std::size_t end = rest.find("\r\n"); end != std::string::npos; end = rest.find("\r\n")) {
@@ -116,7 +116,7 @@ TEST_F(ViewTest, WhoLooksSeesWhatAnotherSubscriberHears) {
       for (const auto& bearing : event.data["bearings"]) used += bearing[4] == "used" ? 1 : 0;
     if (event.name != "pose") continue;
     const auto heard = subscriber.poses.find(event.data["seq"].get<std::int64_t>());
-    if (heard == subscriber.poses.end()) continue;  // lost on either way
+    if (heard == subscriber.poses.end()) continue;  // lost on one of the two ways
     ++compared;
     const pose_cov_t& pose = heard->second;
     EXPECT_EQ(event.data["utime"], pose.utime);
@@ -175,7 +175,7 @@ TEST_F(ViewTest, EndsWhenItIsToldTo) {
   EXPECT_EQ(view_->wait(kPatience), 0);
 }
 
-/// A reader that was stopped, as a laptop is that sleeps.
+/// The stopped readers act like a laptop that sleeps.
 TEST_F(ViewTest, LookersThatStandStillDelayNoOther) {
   std::vector<std::unique_ptr<ChildProcess>> stopped;
   for (int i = 0; i < 5; ++i) {

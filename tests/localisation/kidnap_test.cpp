@@ -1,4 +1,4 @@
-// How often and how fast a kidnapped robot is found, and how often it is found where it is not.
+// How often and how fast a kidnapped robot is relocalised, and how often at a wrong pose.
 
 #include <algorithm>
 #include <cstdlib>
@@ -10,7 +10,7 @@
 namespace azimuth {
 namespace {
 
-/// AZIMUTH_KIDNAPPINGS, else a few.
+/// The number of seeds, from the environment variable AZIMUTH_KIDNAPPINGS; 8 by default.
 int seeds() {
   const char* const asked = std::getenv("AZIMUTH_KIDNAPPINGS");
   return asked != nullptr ? std::max(1, std::atoi(asked)) : 8;

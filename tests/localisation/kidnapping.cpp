@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kImagePeriod_s = 0.2, kSpeed_m_per_s = 0.5;
 constexpr double kWrong_m = 0.5, kWrong_rad = 0.15;
-constexpr double kOdometrySigma = 0.02;  // of a metre, or a radian
+constexpr double kOdometrySigma = 0.02;  // per metre of distance [m] or radian of turn [rad]
 
 bool is_free(const KidnapWorld& world, const Eigen::Vector2d& p) {
   const bool inside = (p.array() > world.low_m.array() + 0.5).all() && (p.array() < world.high_m.array() - 0.5).all();
@@ -17,7 +17,7 @@ bool is_free(const KidnapWorld& world, const Eigen::Vector2d& p) {
          });
 }
 
-/// Ahead where there is room, else turning.
+/// Drives ahead where there is room, otherwise turns.
 Pose2 next_step(const KidnapWorld& world, const Pose2& T_map_body, double& turn_rad) {
   const double step_m = kSpeed_m_per_s * kImagePeriod_s;
   const Pose2 ahead = T_map_body * Pose2{8.0 * step_m, 0.0, 0.0};
@@ -34,7 +34,7 @@ Pose2 next_step(const KidnapWorld& world, const Pose2& T_map_body, double& turn_
 CameraView KidnapWorld::view() const {
   CameraView view;
   view.height_m = camera_height_m;
-  view.max_distance_m = 1.25 * range_m;  // known roughly
+  view.max_distance_m = 1.25 * range_m;  // known only roughly
   if (camera_height_m > 0.0) {
     view.min_elevation_rad = 0.5 * kPi - max_zenith_rad;
     view.detection_probability = detection;
@@ -125,8 +125,8 @@ Kidnapping kidnap(const KidnapWorld& world, const RelocalisationSettings& settin
     T_map_body = {draws.uniform(world.low_m.x(), world.high_m.x()), draws.uniform(world.low_m.y(), world.high_m.y()),
                   draws.uniform(-kPi, kPi)};
   } while (!is_free(world, T_map_body.position()));
-  std::optional<Whereabouts> within;
-  if (world.reach_m) within = Whereabouts{T_map_body.position(), *world.reach_m};
+  std::optional<PositionPrior> within;
+  if (world.reach_m) within = PositionPrior{T_map_body.position(), *world.reach_m};
   relocaliser.start(known, world.view(), within);
   double turn_rad = 0.0;
   for (double t = 0.0; t < seconds && !result.found; t += kImagePeriod_s) {

@@ -33,14 +33,14 @@ TEST(PoseFromDirections, ThreeOfThemGiveTheTruePose) {
       to_landmark[k] = unit_towards(truth, p_map[k]);
     }
     const auto pose = pose_from_directions(p_map, to_landmark);
-    if (!pose) continue;  // on or near the circle through all three
+    if (!pose) continue;  // the position lies on or near the circle through all three landmarks
     ++solved;
     expect_same(*pose, truth, 1e-6);
   }
   EXPECT_GT(solved, 1900);
 }
 
-/// Where the heading is hardly known a direction far off fits, until the others say what the heading is.
+/// With an uncertain heading, a wrong direction fits the prediction, until the other directions determine the heading.
 TEST(ImageMatch, LeavesOutInTheEndWhatFitsThePredictionAlone) {
   const std::vector<KnownLandmark> landmarks{{.p_map_m = {4.0, 0.0, kNan}},
                                              {.p_map_m = {0.0, 4.0, kNan}},
@@ -123,7 +123,8 @@ TEST(DirectionModel, DerivativesAreThoseOfTheModel) {
       const auto plus = appearance({more.x(), more.y(), more.z()}, ray, lamp, 1.8);
       const auto minus = appearance({less.x(), less.y(), less.z()}, ray, lamp, 1.8);
       ASSERT_TRUE(plus && minus);
-      const Eigen::Vector2d slope = (minus->innovation - plus->innovation) / (2.0 * kStep);  // innovation = - expected
+      // the innovation is measured minus expected
+      const Eigen::Vector2d slope = (minus->innovation - plus->innovation) / (2.0 * kStep);
       EXPECT_NEAR(slope.x(), at->by_pose(0, k), 1e-6);
       if (lamp.has_height()) {
         EXPECT_NEAR(slope.y(), at->by_pose(1, k), 1e-6);
@@ -169,9 +170,9 @@ TEST(Relocaliser, IsNotFooledByAMapThatIsItsOwnMirror) {
     world.map_sigma_m = 0.0;
     world.low_m = {6.0, -5.0};
     world.high_m = {30.0, 7.5};
-    // WHEN the robot drives on and on
+    // WHEN the robot drives for a long time
     const Kidnapping one = kidnap(world, RelocalisationSettings{}, 20.0, draws);
-    // THEN it is never called found, and that is because of its twin
+    // THEN its pose is never reported as found, and it is reported as ambiguous
     EXPECT_FALSE(one.found) << seed;
     EXPECT_TRUE(one.ambiguous) << seed;
   }
@@ -179,16 +180,16 @@ TEST(Relocaliser, IsNotFooledByAMapThatIsItsOwnMirror) {
 
 TEST(Relocaliser, IsToldByItsWhereaboutsWhichOfTwoTwinsItIs) {
   for (unsigned seed = 1; seed <= 4; ++seed) {
-    // GIVEN the same map, and a robot at one end of the hall, so that its twin is at the other
+    // GIVEN the same map, and a robot at one end of the hall, so that the symmetric pose is at the other end
     RandomDraws draws(seed);
     KidnapWorld world = lamp_hall(draws, 0.0);
     world.map_sigma_m = 0.0;
     world.low_m = {6.0, -5.0};
     world.high_m = {9.0, 7.5};
-    // WHEN it is known to be near the place where it is
+    // WHEN the robot's position is known within 2 m
     world.reach_m = 2.0;
     const Kidnapping one = kidnap(world, RelocalisationSettings{}, 20.0, draws);
-    // THEN it is found there
+    // THEN it is relocalised at the true pose
     EXPECT_TRUE(one.found) << seed;
     EXPECT_FALSE(one.wrong) << seed << ": " << one.error_m << " m off";
   }

@@ -1,4 +1,4 @@
-// A hall of lamps driven through in two halves, each mapped by itself, against one long drive through all of it.
+// A hall of lamps, driven in two halves and mapped separately, compared with one long drive through all of it.
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kStride_m = 0.265, kHalfDepth_m = 5.0;
 
-/// Rounds of an ellipse along the hall.
+/// Rounds along an ellipse in the hall.
 std::vector<Pose2> rounds(double middle_x_m, double half_width_m) {
   std::vector<Pose2> path;
   for (double t = -std::numbers::pi / 2.0; t < 2.2 * 2.0 * std::numbers::pi;) {
@@ -54,7 +54,8 @@ struct LampError {
   double rms_m() const { return std::sqrt(sum_m2 / static_cast<double>(lamps)); }
 };
 
-/// Of the mapped lamps, after the best rigid motion; `start` takes the map roughly to the world.
+/// Adds the errors of the mapped lamps after the best rigid alignment. `start` is an approximate alignment of the map
+/// with the world.
 void judge(const MapSnapshot& map, const std::vector<Eigen::Vector3d>& lamps, const Pose2& start, LampError& error) {
   Pose2 T_world_map = start;
   std::vector<Eigen::Vector2d> in_map, in_world;

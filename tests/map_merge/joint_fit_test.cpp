@@ -1,4 +1,4 @@
-// The mathematics of two maps made one: derivatives, and the same answer as in information form.
+// The mathematics of merging two maps: derivatives, and agreement with the solution in information form.
 
 #include "slam/map_merge/joint_fit.hpp"
 
@@ -14,7 +14,7 @@ class GapDerivatives : public testing::TestWithParam<int> {};
 
 TEST_P(GapDerivatives, AreThoseOfTheModel) {
   RandomDraws draws(static_cast<unsigned>(GetParam()));
-  const double scale = GetParam() == 0 ? 0.0 : GetParam() == 1 ? 1e-8 : 10.0;  // identity, tiny, anything
+  const double scale = GetParam() == 0 ? 0.0 : GetParam() == 1 ? 1e-8 : 10.0;  // identity, tiny, arbitrary
   const Pose2 T{scale * draws.normal(), scale * draws.normal(), wrap(scale * draws.normal())};
   const Eigen::Vector2d p_a = draws.point(20.0), p_b = draws.point(20.0);
   const Gap at = gap(p_a, T, p_b);
@@ -34,7 +34,7 @@ TEST_P(GapDerivatives, AreThoseOfTheModel) {
 }
 INSTANTIATE_TEST_SUITE_P(Draws, GapDerivatives, testing::Range(0, 12));
 
-/// The sum of squares of both maps over all landmarks and T, with everything in the information matrix.
+/// The sum of squares of both maps over all landmarks and T, computed with the information matrices.
 TEST(JointFit, IsTheLeastOfTheSumOfSquares) {
   RandomDraws draws(5);
   const std::vector<TrueLandmark3> hall = drawn_hall(draws);
@@ -50,7 +50,8 @@ TEST(JointFit, IsTheLeastOfTheSumOfSquares) {
   const JointFit fit = fit_jointly(a, b, pairs, inverse(T_world_a) * T_world_b);
   ASSERT_TRUE(fit.sound);
 
-  // Unknown: a's landmarks, b's in a's frame (those in common are a's), T. The gradient must vanish there.
+  // The unknowns are a's landmarks, b's landmarks in a's frame (common ones are a's) and T. The fit must minimise the
+  // cost.
   const Eigen::MatrixXd information_a = a.covariance.inverse(), information_b = b.covariance.inverse();
   const auto cost = [&](const Eigen::VectorXd& moved_a, const Eigen::VectorXd& moved_b, const Pose2& T) {
     Eigen::VectorXd of_b = moved_b;

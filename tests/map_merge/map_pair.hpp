@@ -1,5 +1,5 @@
 #pragma once
-// Two maps of one hall as two drives might leave them, drawn from the Gaussians that they claim to be.
+// Two maps of one hall as two drives might leave them, drawn from their own Gaussian distributions.
 
 #include <Eigen/Cholesky>
 #include <span>
@@ -18,10 +18,10 @@ struct TrueLandmark3 {
 
 struct DrawnMap {
   MapSnapshot map;
-  Eigen::VectorXd error;  ///< of everything in its covariance
+  Eigen::VectorXd error;  ///< Error of every entry of its covariance
 };
 
-/// A map in the frame T_world_map: landmarks correlated with each other, and all of them by where the frame is thought.
+/// A map in the frame T_world_map. The landmarks are correlated with each other, and share the error of the frame.
 inline DrawnMap drawn_map(std::span<const TrueLandmark3> landmarks, const Pose2& T_world_map, RandomDraws& draws,
                           bool heights = true, double sigma_m = 0.04) {
   DrawnMap drawn;
@@ -37,7 +37,7 @@ inline DrawnMap drawn_map(std::span<const TrueLandmark3> landmarks, const Pose2&
     if (heights) mapped.z_map_landmark_m = landmark.p_world_m.z();
   }
   const Eigen::Index size = as_index(map.entries());
-  Eigen::MatrixXd by_frame = Eigen::MatrixXd::Zero(size, 3);  // by a small motion of the whole map
+  Eigen::MatrixXd by_frame = Eigen::MatrixXd::Zero(size, 3);  // derivative by a small motion of the whole map
   for (Eigen::Index row = as_index(map.first_landmark_entry()), i = 0; i < as_index(map.landmarks.size()); ++i) {
     const Eigen::Vector2d p = map.landmarks[as_size(i)].p_map_landmark_m;
     by_frame.block<2, 3>(row, 0) << 1.0, 0.0, -p.y(), 0.0, 1.0, p.x();
@@ -62,7 +62,7 @@ inline DrawnMap drawn_map(std::span<const TrueLandmark3> landmarks, const Pose2&
   return drawn;
 }
 
-/// Lamps of a hall of 60 by 20 m, none of them in its place to the metre.
+/// Lamps of a hall of 60 by 20 m, each displaced randomly by up to 1.5 m from a regular grid.
 inline std::vector<TrueLandmark3> drawn_hall(RandomDraws& draws, bool names = false) {
   std::vector<TrueLandmark3> lamps;
   for (double x = 3.0; x < 60.0; x += 6.0)

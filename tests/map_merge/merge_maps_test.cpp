@@ -1,4 +1,4 @@
-// Two maps made one: where they lie, how honest the covariance is, and what is refused.
+// Merging two maps: their relative pose, the consistency of the covariance, and the cases that are refused.
 
 #include "slam/map_merge/merge_maps.hpp"
 
@@ -36,7 +36,7 @@ Eigen::MatrixXd full(const PackedSymmetric& packed) {
   return matrix;
 }
 
-/// Of landmarks in a's frame, each against the nearest true one.
+/// The errors of the landmarks in a's frame, each relative to the nearest true landmark.
 Eigen::VectorXd landmark_errors(const MapSnapshot& map, const std::vector<TrueLandmark3>& hall) {
   std::vector<double> errors;
   for (const MapLandmark& landmark : map.landmarks) {
@@ -51,7 +51,7 @@ Eigen::VectorXd landmark_errors(const MapSnapshot& map, const std::vector<TrueLa
   return Eigen::Map<Eigen::VectorXd>(errors.data(), as_index(errors.size()));
 }
 
-/// Sums over many merges of what is chi squared where covariances are honest.
+/// Sums over many merges of quantities that are chi squared if the covariances are consistent.
 struct Honesty {
   double nees = 0.0, nees_T = 0.0, chi2 = 0.0;
   Eigen::Index dimensions = 0;

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Checks one thing about the package for arm64, as scripts/package --arch arm64 made it last, and tries its programs under emulation
-on the libraries they were linked with.
+"""Runs one check of the last arm64 package of scripts/package --arch arm64. Its programs run under emulation with the
+libraries that they were linked with.
 
-usage: arm64_test.py CASE AZIMUTH      AZIMUTH: this machine's own; exit code 0: good, 1: not, 77: no such package, or a tool is missing
+usage: arm64_test.py CASE AZIMUTH      AZIMUTH: the program of this machine; exit code 0: good, 1: not, 77: the package or a tool is missing
 """
 
 import re
@@ -47,7 +47,7 @@ def emulated(package, program, *arguments):
 
 
 def control(deb, _):
-    """It says for which machine it is, and needs the libraries of that one: versions of the same packages as here."""
+    """The package names its architecture and depends on the libraries of this architecture."""
     if said("dpkg-deb", "-f", deb, "Architecture").strip() != "arm64":
         fail("not for arm64")
     needed = {re.split(r"[ (:]", each.strip())[0] for each in said("dpkg-deb", "-f", deb, "Depends").split(",")}
@@ -57,7 +57,7 @@ def control(deb, _):
 
 
 def programs(_, package):
-    """They are of that machine, and without what only debuggers want."""
+    """The programs are for arm64 and stripped."""
     for name in PROGRAMS:
         file = package / "usr/bin" / name
         header, sections = said("readelf", "-h", file), said("readelf", "-SW", file)
@@ -75,7 +75,7 @@ def start(_, package):
 
 
 def replay(_, package):
-    """The shipped run. It says what this machine's own program says, to the last bit where that has fused multiply-add, too."""
+    """A replay of the shipped run gives the report of this machine's program, bit-identical if this machine has FMA."""
     done = emulated(package, "azimuth", "replay", TREE / "runs/lab")
     here = said(AZIMUTH, "replay", TREE / "runs/lab")
     if done.returncode or figures(done.stdout) != figures(here):
@@ -89,7 +89,7 @@ def figures(report):
 
 
 def doctor(_, package):
-    """It may find fault with the machine, but ends in order."""
+    """`azimuth doctor` may find faults of the machine, but must end normally."""
     done = emulated(package, "azimuth", "doctor")
     if done.returncode not in (0, 1) or not done.stdout.strip():
         fail(f"{done.returncode}, {done.stdout}")

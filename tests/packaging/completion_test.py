@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks one thing about the completions that the package ships: bash's are asked, those of zsh and fish are read by these.
+"""Runs one check of the shipped completions. Bash is asked for completions; zsh and fish only read theirs.
 
 usage: completion_test.py CASE AZIMUTHD AZIMUTH AZIMUTH_SIM      exit code 0: good, 1: not, 77: a shell is missing
 """
@@ -14,19 +14,19 @@ from pathlib import Path
 AZIMUTHD, AZIMUTH, AZIMUTH_SIM = (Path(path).resolve() for path in sys.argv[2:5])
 SHARE = AZIMUTHD.parents[1] / "packaging/share"
 
-# What is typed, and what is offered for its last word; '=' is a word of its own, as bash takes it.
+# The typed words, and the completions of the last one. Bash passes '=' as a separate word.
 OFFERED = [
-    (["azimuth", "re"], {"refine", "replay"}),
-    (["azimuth", "map", ""], {"save", "info", "export", "merge"}),
+    (["azimuth", "re"], {"replay", "report"}),
+    (["azimuth", "map", ""], {"save", "info", "export", "merge", "refine"}),
     (["azimuth", "map", "save", "run", "--quie"], {"--quiet"}),
     (["azimuth", "replay", "--front-e"], {"--front-end"}),
     (["azimuth", "replay", "--front-end", ""], {"bearings", "colour", "sift", "lamps"}),
     (["azimuth", "replay", "run", "--front-end", "=", "s"], {"sift"}),
     (["azimuth", "replay", "run", "--front-end", "="], {"bearings", "colour", "sift", "lamps"}),
     (["azimuth", "replay", "run", "--seed", ""], set()),
-    (["azimuth", "replay", "run", "--set", "ekf.pres"], {"ekf.preset="}),
-    (["azimuth", "replay", "run", "--set", "ekf.preset", "=", ""], {"default", "paper"}),
-    (["azimuth", "replay", "run", "--set", "ekf.preset", "=", "pa"], {"paper"}),
+    (["azimuth", "replay", "run", "--set", "ekf.init"], {"ekf.initialisation="}),
+    (["azimuth", "replay", "run", "--set", "preset", "=", ""], {"default", "paper", "paper-7deg"}),
+    (["azimuth", "replay", "run", "--set", "ekf.initialisation", "=", "de"], {"delayed"}),
     (["azimuth", "simulate", "out", "--world", "co"], {"coloured-lab", "corridor"}),
     (["azimuth", "replay", "--report", "file-"], {"file-1", "file-2"}),
     (["azimuth", "replay", "file-"], {"file-1", "file-2"}),
@@ -52,7 +52,7 @@ def script_of(program):
 
 
 def offered(words, folder="."):
-    """By a bash that nobody sits at."""
+    """The completions that a non-interactive bash offers for the last word."""
     program = words[0]
     function = "_" + program.replace("-", "_")
     asked = f'source "$0"; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); {function}; printf "%s\\n" "${{COMPREPLY[@]}}"'
@@ -82,7 +82,7 @@ def said(program, *words):
 
 
 def lacking(program, words=()):
-    """Options and commands of the help that nobody offers."""
+    """Yields the options and commands of the help that the completions lack."""
     text = said(program, *words)
     typed = [program.name, *words]
     options = set(re.findall(r"^  (?:-\w,)?(--[\w-]+)", text, flags=re.M))
@@ -120,13 +120,13 @@ def fish_reads_it():
     reads("fish", sorted((SHARE / "fish/vendor_completions.d").glob("*.fish")))
 
 
-# fish takes '=' for a part of the word.
+# Fish treats '=' as part of the word.
 OFFERED_BY_FISH = [
-    ("azimuth re", {"refine", "replay"}),
-    ("azimuth map ", {"save", "info", "export", "merge"}),
+    ("azimuth re", {"replay", "report"}),
+    ("azimuth map ", {"save", "info", "export", "merge", "refine"}),
     ("azimuth replay run --front-end ", {"bearings", "colour", "sift", "lamps"}),
-    ("azimuth replay run --set ekf.pres", {"ekf.preset="}),
-    ("azimuth replay run --set ekf.preset=", {"ekf.preset=default", "ekf.preset=paper"}),
+    ("azimuth replay run --set ekf.init", {"ekf.initialisation="}),
+    ("azimuth replay run --set preset=", {"preset=default", "preset=paper", "preset=paper-7deg"}),
     ("azimuth map save run --quie", {"--quiet"}),
     ("azimuthd --set daemon.live.odometer=p", {"daemon.live.odometer=pioneer"}),
     ("azimuth-sim --scenario ha", {"hall"}),

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks one thing about the manual pages that the package ships.
+"""Runs one check of the shipped manual pages.
 
 usage: manual_pages_test.py CASE AZIMUTHD AZIMUTH AZIMUTH_SIM [AZIMUTH_ROS2]      exit code 0: good, 1: not, 77: a tool is missing
 """
@@ -11,16 +11,16 @@ from pathlib import Path
 
 from package_case import AZIMUTH, AZIMUTH_ROS2, AZIMUTH_SIM, AZIMUTHD, TREE, fail, need, run
 
-WRITTEN = {"azimuthd.8": AZIMUTHD, "azimuth-sim.1": AZIMUTH_SIM}  # by hand; the others are made of what programs say
+WRITTEN = {"azimuthd.8": AZIMUTHD, "azimuth-sim.1": AZIMUTH_SIM}  # written by hand; the others are generated from the help of the programs
 if AZIMUTH_ROS2:
     WRITTEN["azimuth-ros2.1"] = AZIMUTH_ROS2
 SHARE = AZIMUTHD.parents[1] / "packaging/share"
 
 
 def manual_pages():
-    """All pages, by name and section: their text."""
+    """The texts of all pages, keyed by name and section."""
     made = {file.name.removesuffix(".gz"): gzip.decompress(file.read_bytes()).decode() for file in sorted(SHARE.glob("man/man*/*.gz"))}
-    return made | {file.name: file.read_text() for file in sorted((TREE / "man").glob("*.[0-9]"))}
+    return made | {file.name: file.read_text() for file in sorted((TREE / "packaging/man").glob("*.[0-9]"))}
 
 
 def manual_pages_are_clean():
@@ -55,7 +55,7 @@ def check_options(page, text, said):
 
 
 def check_command_pages(pages, words):
-    """The page of a command, and those of the commands below it."""
+    """Checks the page of a command and those of its subcommands."""
     name = "-".join(words) + ".1"
     said = run(AZIMUTH, *words[1:], "--help").stdout
     if name not in pages:
@@ -74,7 +74,7 @@ def manual_pages_name_every_option():
             fail(f"{page} has what there is not: --{', --'.join(sorted(extra))}")
     if check_command_pages(pages, ["azimuth"]) < 15:
         fail("hardly a command: help is not understood")
-    for page, said in (("azimuth.toml.5", run(AZIMUTHD, "--print-settings", "--all").stdout), ("rig.toml.5", run(AZIMUTH, "settings", "--rig").stdout)):
+    for page, said in (("azimuth.toml.5", run(AZIMUTHD, "--print-settings").stdout), ("rig.toml.5", run(AZIMUTHD, "--print-rig-settings").stdout)):
         keys = re.findall(r"^#(\w+) = |^# (\w+): no default$", said, flags=re.M)
         if missing := [a or b for a, b in keys if f".It Va \\&{a or b}" not in pages[page]]:
             fail(f"{page} lacks {', '.join(missing)}")

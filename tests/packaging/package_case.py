@@ -1,4 +1,4 @@
-"""What the tests of the package share: their programs, the tree, and how a case fails or is left out."""
+"""Shared parts of the tests of the package: the programs, the tree, and functions that fail or skip a case."""
 
 import shutil
 import subprocess
@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 TREE = Path(__file__).resolve().parents[2]
-SYSTEMD = TREE / "systemd"
+SYSTEMD = TREE / "packaging/systemd"
 UNIT = SYSTEMD / "azimuthd.service"
 AZIMUTHD, AZIMUTH, AZIMUTH_SIM = (Path(path).resolve() for path in sys.argv[2:5])
 AZIMUTH_ROS2 = Path(sys.argv[5]).resolve() if len(sys.argv) > 5 else None
@@ -28,7 +28,7 @@ def run(*command, **options):
 
 
 def settings_of(unit):
-    """Every `Key=value` of a unit, in order, as {key: [values]}."""
+    """All settings `Key=value` of a unit in order, as {key: [values]}."""
     found = {}
     for line in unit.read_text().splitlines():
         if "=" in line and not line.startswith("#"):

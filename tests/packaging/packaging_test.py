@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks one thing about what else the package ships: accounts, rules, configuration, maintainer scripts, documents.
+"""Runs one check of the other shipped files: accounts, rules, configuration, maintainer scripts, documents.
 
 usage: packaging_test.py CASE AZIMUTHD AZIMUTH AZIMUTH_SIM [AZIMUTH_ROS2]      exit code 0: good, 1: not, 77: a tool is missing
 """
@@ -36,7 +36,7 @@ def folders():
     expected = f"d /run/{unit['RuntimeDirectory'][0]} {unit['RuntimeDirectoryMode'][0]} {unit['User'][0]} {unit['Group'][0]} -"
     if expected not in text.splitlines():
         fail(f"not there, as the unit has it: {expected}")
-    if os.geteuid() != 0:  # nobody else may give a folder away
+    if os.geteuid() != 0:  # only root may change the owner of a folder
         return
     with tempfile.TemporaryDirectory() as root:
         (Path(root) / "etc").mkdir()
@@ -46,7 +46,7 @@ def folders():
             fail(made.stdout)
 
 
-# udev(7). A key, perhaps with an attribute, an operator, and a value in double quotes.
+# A term of a rule, see udev(7): a key with an optional attribute, an operator, and a value in double quotes.
 TERM = re.compile(r'([A-Z_]+)(?:\{([^}]*)\})?\s*(==|!=|\+=|:=|-=|=)\s*"((?:[^"\\]|\\.)*)"')
 MATCHES = {"ACTION", "SUBSYSTEM", "SUBSYSTEMS", "DRIVER", "DRIVERS", "ATTRS", "KERNEL", "KERNELS"}
 ASSIGNS = {"SYMLINK", "GROUP", "MODE", "OWNER", "TAG", "GOTO", "LABEL"}
@@ -78,7 +78,7 @@ def rule_mistakes(text):
 def device_rules():
     rules = SYSTEMD / "60-azimuth.rules"
     names = SYSTEMD / "examples/61-azimuth-names.rules"
-    # The examples are in force once their # is gone.
+    # Removing the # enables the example rules.
     enabled = re.sub(r"^#(?=[A-Z]+==)", "", names.read_text(), flags=re.M)
     for file, text in ((rules, rules.read_text()), (names, enabled)):
         if mistakes := rule_mistakes(text):
@@ -140,13 +140,13 @@ def maintainer_scripts():
             fail(f"a purge leaves {folder}")
 
 
-# What the tree has elsewhere, or under another name, than the package.
+# Files whose path in the tree differs from that in the package.
 SHIPPED_AS = {"CHANGELOG.md": "changelog.gz", "LICENSE": "copyright", "README.md": "README.md.gz",
               "lcmtypes": "../../azimuth/lcmtypes", "config/azimuth.toml": "examples/config/azimuth.toml"}
 
 
 def linked_from_readme():
-    """What README.md and the documents that it links to link to, as paths in the tree."""
+    """All link targets of README.md and of the documents that it links to, as paths in the tree."""
     found, waiting = set(), ["README.md"]
     while waiting:
         document = waiting.pop()
@@ -161,9 +161,9 @@ def linked_from_readme():
 
 
 def documents():
-    """Every document that the package names is in it, and every one that README.md leads to."""
+    """The package contains every document that its files name and every document that README.md leads to."""
     debian = TREE / "packaging/debian"
-    writers = [debian / "changelog", debian / "README.Debian", *sorted((TREE / "man").iterdir()),
+    writers = [debian / "changelog", debian / "README.Debian", *sorted((TREE / "packaging/man").iterdir()),
                *(file for file in sorted(SYSTEMD.rglob("*")) if file.is_file())]
     with tempfile.TemporaryDirectory() as root:
         made = run("cmake", "--install", AZIMUTHD.parents[1], "--prefix", "/usr", env=os.environ | {"DESTDIR": root})

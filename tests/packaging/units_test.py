@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks one thing about the units of systemd that the package ships.
+"""Runs one check of the shipped systemd units.
 
 usage: units_test.py CASE AZIMUTHD AZIMUTH AZIMUTH_SIM [AZIMUTH_ROS2]      exit code 0: good, 1: not, 77: a tool is missing
 """
@@ -11,7 +11,7 @@ from pathlib import Path
 
 from package_case import AZIMUTH, AZIMUTH_ROS2, AZIMUTHD, SYSTEMD, TREE, UNIT, fail, need, run, settings_of
 
-MAX_EXPOSURE = 17  # tenths
+MAX_EXPOSURE = 17  # in tenths of the exposure of systemd-analyze security
 MAX_VIEW_EXPOSURE = 15
 
 
@@ -35,7 +35,7 @@ def unit_is_hardened():
         fail(judged.stdout)
     if not run("systemd-analyze", "security", "--offline=true", "--threshold=1", UNIT).returncode:
         fail("any unit is hardened enough: this test cannot fail")
-    # What only some robots need, only they have.
+    # Only robots with a CAN bus may use AF_CAN, through their own drop-in file.
     allowed = [" ".join(settings_of(unit)["RestrictAddressFamilies"]) for unit in (UNIT, SYSTEMD / "examples/can.conf")]
     if "AF_CAN" in allowed[0] or allowed[1] != "AF_CAN":
         fail(f"address families: {allowed}")
@@ -69,7 +69,8 @@ def drop_ins():
 
 
 def view_unit():
-    """It is valid, hardened more than others, on no boot by itself, and gives up where another start would find the same."""
+    """The unit is valid and hardened more than the others, does not start at boot, and does not restart after errors
+    that persist."""
     need("systemd-analyze")
     unit = SYSTEMD / "azimuth-view.service"
     with tempfile.TemporaryDirectory() as folder:
@@ -92,7 +93,7 @@ def view_unit():
 
 
 def ros2_unit():
-    """It is valid and hardened, and gives up where another start would find the same."""
+    """The unit is valid and hardened, and does not restart after errors that persist."""
     need("systemd-analyze")
     unit = SYSTEMD / "azimuth-ros2.service"
     with tempfile.TemporaryDirectory() as folder:

@@ -1,5 +1,5 @@
 #pragma once
-// Images for tests of perception: rendered by the simulator's cameras, and what can go wrong with them.
+// Images for the tests of perception: rendered by the simulator's cameras, with optional disturbances.
 
 #include <algorithm>
 #include <array>
@@ -40,20 +40,20 @@ inline Image rendered(const RenderScene& scene, const RenderCamera& camera, cons
   return image;
 }
 
-/// The coloured lab through the mirror: centre (512, 384), ring from 60 to 376 px, black around.
+/// The coloured lab through the mirror: centre (512, 384), visible ring from 60 to 376 px, black outside it.
 inline const Image& mirror_image() {
   static const Image image = rendered(lab_scene(), mirror_camera(), {});
   return image;
 }
 
-/// Lamps behind an infra-red filter.
+/// Lamps seen through an infra-red filter.
 inline Image lamps_image() { return rendered(lamp_scene(hall(1, 1), 6.5), fisheye_camera(), {}); }
 
-/// A grey image in any uncompressed format.
+/// A grey image converted to any uncompressed format.
 inline Image in_format(const Image& gray, PixelFormat pixels) {
   Image out = blank(pixels, gray.format.width_px, gray.format.height_px);
   const auto size = static_cast<std::size_t>(bytes_per_pixel(pixels));
-  std::ranges::fill(out.bytes, std::byte{128});  // a chroma plane, where there is one
+  std::ranges::fill(out.bytes, std::byte{128});  // the chroma plane, if the format has one
   for (std::size_t i = 0; i < gray.bytes.size(); ++i) {
     for (std::size_t k = 0; k < size; ++k) {
       const bool is_colour = (pixels == PixelFormat::yuyv && k == 1) || (pixels == PixelFormat::uyvy && k == 0);
@@ -63,7 +63,7 @@ inline Image in_format(const Image& gray, PixelFormat pixels) {
   return out;
 }
 
-/// With `light` times the light, as far as a byte can say.
+/// The image with `light` times the light, clipped at 255.
 inline Image scaled(const Image& gray, double light) {
   Image out = gray;
   for (std::byte& byte : out.bytes) {
@@ -72,7 +72,7 @@ inline Image scaled(const Image& gray, double light) {
   return out;
 }
 
-/// `inside` where the rig's mask shows the world, `outside` elsewhere; both grey.
+/// Combines two grey images: `inside` where the rig's mask is visible, `outside` everywhere else.
 inline Image combined(const Image& inside, const Image& outside, const ImageRig& rig) {
   const std::vector<std::uint8_t> visible =
       ImageMask(axes_of(rig), mask_of(rig)).raster(inside.format.width_px, inside.format.height_px);

@@ -1,5 +1,5 @@
 #pragma once
-// What a camera over a robot that has turned on the spot would show, made from an image.
+// Rotates an image as if the robot turned on the spot.
 
 #include <algorithm>
 #include <array>
@@ -9,14 +9,14 @@
 
 namespace azimuth::test {
 
-/// Weights of the four pixels about a place that is `fraction` beyond the second: a cubic through all pixels (Keys).
+/// Weights of four neighbouring pixels at `fraction` beyond the second one: cubic interpolation (Keys).
 inline std::array<double, 4> cubic_weights(double fraction) {
   const double t = fraction;
   return {((-0.5 * t + 1.0) * t - 0.5) * t, (1.5 * t - 2.5) * t * t + 1.0, ((-1.5 * t + 2.0) * t + 0.5) * t,
           (0.5 * t - 0.5) * t * t};
 }
 
-/// A grey image at (u, v), beyond the edge as on it.
+/// Grey level at (u, v); places outside the image take the value of the nearest edge.
 inline double cubic_at(const Image& image, double u, double v) {
   const double left = std::floor(u), top = std::floor(v);
   const std::array<double, 4> across = cubic_weights(u - left), down = cubic_weights(v - top);
@@ -32,7 +32,7 @@ inline double cubic_at(const Image& image, double u, double v) {
   return sum;
 }
 
-/// A grey image turned about `centre` by `angle_rad` from u towards v.
+/// A grey image rotated about `centre` by `angle_rad` from u towards v.
 inline Image rotated(const Image& image, const Pixel& centre, double angle_rad) {
   Image out = blank(PixelFormat::gray8, image.format.width_px, image.format.height_px);
   const double cos = std::cos(angle_rad), sin = std::sin(angle_rad);

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Counts the instructions that arm64 takes for a call of each loop that time goes into, with the processor's vectors and without, and prints
-both: with them it must be at most 0.45 of that. Time under emulation means nothing, a count is the same everywhere.
+"""Counts and prints the arm64 instructions of a call of each time-critical loop, with and without vector instructions.
+The ratio must be at most 0.45. The time under emulation means nothing, but the count is the same on every machine.
 
-usage: instructions_test.py WITH_VECTORS WITHOUT      exit code 0: good, 1: not, 77: no emulator here
+usage: instructions_test.py WITH_VECTORS WITHOUT      exit code 0: good, 1: not, 77: the emulator is missing
 """
 
 import os
@@ -14,7 +14,7 @@ from pathlib import Path
 TREE = Path(__file__).resolve().parents[2]
 SYSROOT = TREE / "build/sysroot/arm64"
 EMULATOR = "qemu-aarch64-static"
-MOST = 0.45  # of the instructions without vectors
+MOST = 0.45  # largest ratio of the instructions with vectors to those without
 
 
 def run(*command):
@@ -22,7 +22,8 @@ def run(*command):
 
 
 def instructions(program, loop, calls):
-    """Of the whole program: the emulator says each one it comes to, when it translates them one by one and forgets them."""
+    """The number of executed instructions of the whole program. With these options the emulator logs every single
+    instruction."""
     read_end, write_end = os.pipe()
     command = [EMULATOR, "-L", SYSROOT, "-singlestep", "-d", "exec,nochain", "-D", f"/dev/fd/{write_end}", program, loop, str(calls)]
     with subprocess.Popen([str(word) for word in command], pass_fds=[write_end]) as running:
@@ -35,7 +36,7 @@ def instructions(program, loop, calls):
 
 
 def of_a_call(program, loop):
-    """What starts and ends the program, and what makes its data, is in both."""
+    """The number of instructions of one call. The difference of two runs removes the program's start, end and data."""
     return (instructions(program, loop, 3) - instructions(program, loop, 1)) // 2
 
 

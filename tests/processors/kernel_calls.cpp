@@ -1,5 +1,5 @@
-// Calls one of the loops that time goes into, as often as asked: instructions_test.py counts what a call takes.
-// Compiled twice, against the loops as they are and against the same without the processor's vectors.
+// Calls one of the time-critical loops a given number of times; instructions_test.py counts the instructions of a call.
+// The program is compiled twice: with the loops as shipped, and with loops without vector instructions.
 
 #include <cstdint>
 #include <cstdlib>
@@ -20,7 +20,7 @@
 namespace azimuth {
 namespace {
 
-std::mt19937 random_bits;  // NOLINT(cert-msc32-c,cert-msc51-cpp): the same numbers in both programs
+std::mt19937 random_bits;  // NOLINT(cert-msc32-c,cert-msc51-cpp): both programs need equal numbers
 
 std::uint8_t byte() { return static_cast<std::uint8_t>(random_bits()); }
 
@@ -36,7 +36,7 @@ Descriptor descriptor() {
   return made;
 }
 
-/// What a filter with 30 landmarks does with ten bearings.
+/// The matrix operations of an EKF with 30 landmarks in an update with ten bearings.
 struct Filter {
   static constexpr Eigen::Index kSize = 63, kColumns = 20, kStride = LowerTriangle::padded(kSize);
   std::vector<double> covariance = std::vector<double>(kStride * kStride, 1.0);
@@ -65,7 +65,7 @@ struct Descriptors {
   void find() { find_near(block, queries.data(), bounds.data(), near); }
 };
 
-/// An octave's image and what finds its features.
+/// The image of an octave, the blur and the search for extrema.
 struct ScaleSpace {
   static constexpr int kWidth = 256, kHeight = 12, kRadius = 5;
   std::vector<float> in = intensities(), out = in, difference = in;
@@ -104,8 +104,8 @@ struct Resampling {
   void add() { add_weighted(values.data(), 3, 1024, sums.data()); }
 };
 
-/// A row of YUYV with a coloured landmark in it. Its table is of one colour: that of a true one takes longer to make
-/// than all else.
+/// A YUYV row with a coloured landmark. The class table has one colour, because making a real one would take longer
+/// than the loop.
 struct Colours {
   static constexpr int kWidth = 1024;
   static constexpr std::uint8_t kGray = 128, kBlue = 240;
@@ -127,7 +127,7 @@ struct Colours {
   }
 };
 
-/// A row with two lamps.
+/// A grey row with two lamps.
 struct Lamps {
   std::vector<std::uint8_t> row = std::vector<std::uint8_t>(1024, 7);
   std::vector<PixelRun> runs = std::vector<PixelRun>(64);

@@ -1,5 +1,5 @@
-// What a program of ours would be if it used a loop that the processor has not: it must die where that is so, else the
-// emulator is no judge.
+// A program that needs AVX2. It must die on an emulated processor without AVX2; otherwise the emulator could not show
+// that our programs avoid such instructions.
 
 #include <immintrin.h>
 

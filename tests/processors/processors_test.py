@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Runs the programs on processors of other models, emulated: each starts, estimates, and says the same as every other model of its kind.
+"""Runs the programs on emulated processors of other models. On each, they must start and give the same estimates as on
+all models of its kind.
 
-usage: processors_test.py CASE AZIMUTHD AZIMUTH AZIMUTH_SIM NEEDS_AVX2      exit code 0: good, 1: not, 77: no emulator here, or no package to try
+usage: processors_test.py CASE AZIMUTHD AZIMUTH AZIMUTH_SIM NEEDS_AVX2      exit code 0: good, 1: not, 77: the emulator or the package is missing
 """
 
 import re
@@ -17,13 +18,13 @@ CASE, (AZIMUTHD, AZIMUTH, AZIMUTH_SIM, NEEDS_AVX2) = sys.argv[1], (str(Path(each
 SYSROOT = TREE / "build/sysroot/arm64"
 EMULATOR = ["qemu-aarch64-static", "-L", str(SYSROOT)] if CASE == "arm64" else ["qemu-x86_64-static"]
 
-# From the first with 64 bits on. The last two are of no maker: one thing alone is missing.
+# Models from the first one with 64 bits on. The last two are artificial: each lacks a single feature.
 WITHOUT_FMA = ("Conroe", "Nehalem", "SandyBridge", "Opteron_G1", "Haswell,-fma", "Haswell,-avx2")
 WITH_FMA = ("Haswell", "Skylake-Client", "EPYC-Rome")
-# Of a Raspberry Pi 3, 4 and 5, and all that there is; every one of them has fused multiply-add.
+# The processors of a Raspberry Pi 3, 4 and 5, and a model with all features. All of them have fused multiply-add.
 ARM64 = ("cortex-a53", "cortex-a72", "cortex-a76", "max")
 
-# Each reaches other loops: those of the filter; of colours; of lamps; of natural features.
+# Runs that use different loops: those of the EKF, of colours, of lamps and of natural features.
 RUNS = {
     "named": ["--seconds", "5"],
     "colours": ["--seconds", "4", "--camera", "mirror", "--size", "0.3"],
@@ -63,7 +64,7 @@ def make_runs(folder):
 
 
 def digests(folder, on, *replay):
-    """Of every run, by its name."""
+    """The digests of all runs, keyed by name."""
     found = {}
     for name in RUNS:
         report = said(run(*replay, f"{folder}/{name}"), f"{on}, {name}")
@@ -72,13 +73,14 @@ def digests(folder, on, *replay):
 
 
 def digests_here(folder):
-    """None where this machine rounds otherwise, without fused multiply-add."""
+    """The digests of this machine; empty if it has no fused multiply-add and therefore rounds differently."""
     flags = set(Path("/proc/cpuinfo").read_text(encoding="utf-8").split())
     return digests(folder, "here", AZIMUTH, "replay") if {"avx2", "fma"} <= flags else {}
 
 
 def agree(models, programs=(AZIMUTH, AZIMUTHD, AZIMUTH_SIM), as_here=RUNS):
-    """All of the models start all programs, and estimate the same, of the runs `as_here` what this machine does."""
+    """All models must start all programs and give equal digests; for the runs `as_here`, also the digests of this
+    machine."""
     with tempfile.TemporaryDirectory() as folder:
         make_runs(folder)
         expected = {name: digest for name, digest in digests_here(folder).items() if name in as_here}
@@ -101,7 +103,7 @@ def with_fma():
 
 
 def arm64():
-    """The programs of the package that scripts/package --arch arm64 made last."""
+    """Tests the programs of the last package of scripts/package --arch arm64."""
     debs = sorted((TREE / "build/package-arm64").glob("azimuth_*.deb"))
     if not debs:
         skip("no package in build/package-arm64 (scripts/package --arch arm64 makes it)")
@@ -111,7 +113,7 @@ def arm64():
 
 
 def bites():
-    """A loop for another processor would end the program."""
+    """Checks that an instruction which the processor lacks ends the program."""
     said(emulated("Haswell", NEEDS_AVX2), "Haswell")
     code = emulated("Nehalem", NEEDS_AVX2).returncode
     if code not in (-signal.SIGILL, 128 + signal.SIGILL):

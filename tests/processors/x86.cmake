@@ -1,4 +1,4 @@
-# Loops for newer processors must not be reached on older ones. The package for arm64 is tried where it has been made.
+# Older processors must not run the loops for newer ones. The arm64 package is tested if it has been made.
 add_executable(processors_needs_avx2 needs_avx2.cpp)
 target_link_libraries(processors_needs_avx2 PRIVATE azimuth_options)
 target_compile_options(processors_needs_avx2 PRIVATE -mavx2)

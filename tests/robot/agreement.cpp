@@ -35,7 +35,7 @@ Agreement agreement(std::span<const Sighting> sightings) {
 void expect_agreement(std::span<const Sighting> sightings, double walk_m) {
   const Agreement found = agreement(sightings);
   EXPECT_GT(found.readings, 0U);
-  // A whole unit in x and in y, and as much for the way the controller itself adds up.
+  // One unit in x and in y, and as much again for rounding in the controller's own integration.
   EXPECT_LE(found.worst_excess_m, 3.0 * kUnit_m + walk_m);
   EXPECT_LE(found.worst_rad, 1.05 * kHeadingUnit_rad);
 }

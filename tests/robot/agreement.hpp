@@ -6,22 +6,24 @@
 
 namespace azimuth::test {
 
-/// What the driver's motion from `first` to `later`, of the same origin, is off that of the wheels.
+/// Difference between the driver's motion from `first` to `later` and that of the wheels. Both must have the same
+/// origin.
 Pose2 error_since(const Sighting& first, const Sighting& later);
 
-/// How far the driver's odometry came from that of the wheels. Each origin counts from its first reading on.
+/// Errors of the driver's odometry relative to the wheels. Each origin is compared from its first reading on.
 struct Agreement {
   std::size_t readings = 0, origins = 0;
   double worst_m = 0.0, worst_rad = 0.0;
-  double worst_excess_m = 0.0;  ///< over what the coarse heading of the origin's first SIP explains at that distance
+  /// Beyond the error that the coarse heading of the origin's first SIP explains at that distance.
+  double worst_excess_m = 0.0;
 };
 Agreement agreement(std::span<const Sighting> sightings);
 
-/// Resolution of a SIP: x and y in whole units of one millimetre, heading in 4096 steps a turn.
+/// Resolution of a SIP: x and y in units of 1 mm, heading in 4096 steps per turn.
 inline constexpr double kUnit_m = 0.001, kHeadingUnit_rad = 6.283185307179586 / 4096;
 
-/// Fails where the odometry is farther off than the SIP's resolution explains. Wheel ticks are finer, but go in the
-/// direction of the SIP's coarse heading, which is a random walk: `walk_m` is what it may come to.
+/// Fails if the error of the odometry exceeds what the SIP's resolution explains. Wheel ticks are finer, but their
+/// direction is the coarse heading of the SIP, which causes a random walk; `walk_m` is its largest accepted error.
 void expect_agreement(std::span<const Sighting> sightings, double walk_m = 0.0);
 
 }  // namespace azimuth::test

@@ -12,7 +12,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr Duration kBetweenSets = 200ms, kBetweenFaults = 10s;
-constexpr int kLaps = 100;  // more than anyone drives here
+constexpr int kLaps = 100;  // more laps than any test drives
 
 RobotSetup setup_for(std::uint64_t seed) {
   RobotSetup setup;
@@ -100,7 +100,7 @@ bool DriveWithFaults::settled(Stamp stamp) const {
   return last.back != Stamp::max() && stamp > last.back + kToSettle;
 }
 
-/// The map's frame is the true pose of the first estimate.
+/// The map frame is the true pose of the first estimate.
 void DriveWithFaults::judge(const Estimate& estimate) {
   const Stamp first_set(duration_from_seconds(scenario_.sampling.bearing_phase_s));
   const Pose2& truth = truth_[static_cast<std::size_t>((estimate.stamp - first_set) / kBetweenSets)];

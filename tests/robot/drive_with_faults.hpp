@@ -1,5 +1,5 @@
 #pragma once
-// A robot that drives round the lab for long, with a fault every ten seconds, a camera and an estimator.
+// A long drive round the lab with a fault every ten seconds, a camera and an estimator.
 
 #include <string>
 #include <vector>
@@ -11,35 +11,35 @@
 
 namespace azimuth::test {
 
-/// A fault that lasts for a while.
+/// A temporary fault.
 struct PassingFault {
-  std::string begin, end;  ///< `end` empty: it ends by itself, after `lasts`
+  std::string begin, end;  ///< fault texts; empty `end`: the fault ends by itself after `lasts`
   Duration lasts{};
-  bool loses_link = false;  ///< or the session
+  bool loses_link = false;  ///< loses the link or the session
 };
 
 struct DriveSetup {
   std::uint64_t seed = 1;
-  /// They come in an order drawn by the seed, again and again.
+  /// The faults repeat in an order drawn from the seed.
   std::vector<PassingFault> faults;
-  /// The controller holds the wheels when it has heard nobody for so long; 0: it never does, and the robot drives on
-  /// unseen while it cannot be reached.
+  /// The controller stops the wheels after this time without a command; 0: never, so the robot drives on unobserved
+  /// while the link is down.
   Duration watchdog{};
 };
 
-/// When one of them ended, and when odometry came again.
+/// The end of a fault, and the time at which odometry returns.
 struct Struck {
   std::string fault;
   bool loses_link = false;
   Stamp ended{}, back{};
 };
 
-/// What the estimator made of it.
+/// Result of the estimator.
 struct DriveResult {
   std::vector<Struck> struck;
   std::size_t estimates = 0, not_tracking = 0, lost = 0;
   double mean_error_m = 0.0, max_error_m = 0.0, final_error_m = 0.0;
-  double max_settled_error_m = 0.0;  ///< with odometry back for more than three seconds
+  double max_settled_error_m = 0.0;  ///< while odometry has been back for more than three seconds
 };
 
 class DriveWithFaults {
@@ -66,7 +66,7 @@ class DriveWithFaults {
   Random order_, bearing_random_;
   Stamp next_set_;
   std::uint64_t sets_ = 0;
-  std::vector<Pose2> truth_;  // at each set
+  std::vector<Pose2> truth_;  // at each bearing set
   Pose2 T_world_map_;
   Estimate estimate_;
   DriveResult result_;

@@ -13,7 +13,7 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = PioneerDriver::Clock;
 
-/// The driver's clock is not the stamps': they differ as CLOCK_MONOTONIC and the time of day do.
+/// The driver's clock differs from the stamps, as CLOCK_MONOTONIC differs from the time of day.
 constexpr Duration kMonotonicAtStart = 1h;
 
 Clock::time_point driver_time(Stamp now) { return Clock::time_point(now.time_since_epoch() + kMonotonicAtStart); }
@@ -80,7 +80,7 @@ void DrivenRobot::note_latches() {
   }
 }
 
-/// Cycles are far apart compared with any error a stamp may have.
+/// The nearest latch is unique, because cycles are much farther apart than the error of any stamp.
 const DrivenRobot::Latch& DrivenRobot::latch_nearest(Stamp stamp) const {
   return *std::ranges::min_element(latches_, {},
                                    [stamp](const Latch& latch) { return std::abs((latch.at - stamp).count()); });

@@ -1,5 +1,5 @@
 #pragma once
-// The real driver on the simulated controller, in virtual time. Nothing waits and no descriptor is open.
+// The real driver and the simulated controller in virtual time, without waiting and without descriptors.
 
 #include <deque>
 #include <functional>
@@ -13,13 +13,13 @@
 
 namespace azimuth::test {
 
-/// A reading, and what the wheels really did by the instant that the controller looked at them.
+/// A reading, and the true state of the wheels when the controller sampled them.
 struct Sighting {
   OdometryReading reading;
-  Stamp taken_at{};  ///< when the driver had it
+  Stamp taken_at{};  ///< time at which the driver had the reading
   Stamp latched_at{};
   Pose2 T_odom_wheels;
-  double path_m = 0.0;  ///< of the wheels
+  double path_m = 0.0;  ///< path length of the wheels
   Duration stamp_error() const { return reading.stamp - latched_at; }
 };
 
@@ -30,10 +30,10 @@ struct RobotSetup {
   std::uint64_t seed = 1;
 };
 
-/// Everything is a function of setup, chassis and what the test does when.
+/// The result depends only on the setup, the chassis and the calls of the test.
 class DrivenRobot {
  public:
-  /// `chassis` outlives this.
+  /// `chassis` must outlive this object.
   DrivenRobot(const RobotSetup& setup, sim::Chassis& chassis);
   ~DrivenRobot();
   DrivenRobot(const DrivenRobot&) = delete;
@@ -42,22 +42,22 @@ class DrivenRobot {
   Stamp now() const { return now_; }
   void run(Duration duration) { run_until(now_ + duration); }
   void run_until(Stamp end);
-  /// Runs until the driver has a reading, at most so long; false: it has none.
+  /// Runs until the driver has a reading, at most for `at_most`; false: no reading.
   bool run_to_reading(Duration at_most);
-  /// By the simulator's name for it.
+  /// Triggers a fault, by its name in the simulator.
   void fault(std::string_view text);
 
   PioneerDriver& driver() { return driver_; }
   const PioneerState& state() const { return driver_.state(); }
   sim::SimulatedPioneer& pioneer() { return pioneer_; }
-  /// Of the present instant, as far as the controller has looked.
+  /// State of the wheels at the last instant at which the controller sampled them.
   const WheelReference& wheels() const { return wheels_; }
 
   std::vector<Sighting> sightings;
   std::vector<std::string> events;
   std::function<void(const Sighting&)> on_sighting = [](const Sighting&) {};
-  std::uint64_t turns = 0;                    ///< of the driver
-  std::size_t allocations_while_running = 0;  ///< in turns that began and ended with odometry coming
+  std::uint64_t turns = 0;                    ///< number of calls of the driver's turn()
+  std::size_t allocations_while_running = 0;  ///< in turns that started and ended with a running connection
 
  private:
   struct Latch {
@@ -75,7 +75,7 @@ class DrivenRobot {
   sim::SimulatedPioneer pioneer_;
   VirtualAdapter adapter_;
   PioneerDriver driver_;
-  std::deque<Latch> latches_;  // the newest
+  std::deque<Latch> latches_;  // only the newest ones
   Stamp now_{}, driver_due_{};
 };
 

@@ -1,4 +1,4 @@
-// Half an hour with a fault every ten seconds, and what an estimator makes of it.
+// Half an hour of drive with a fault every ten seconds: the driver and an estimator must recover from each.
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ using namespace std::chrono_literals;
 std::vector<PassingFault> all_faults() {
   return {
       {"noise=0.002", "noise=0", 4s},
-      {"noise=0.01", "noise=0", 1s},  // of more, some damaged packets have the right checksum
+      {"noise=0.01", "noise=0", 1s},  // with more noise some damaged packets have a valid checksum
       {"lose_bytes=0.005", "lose_bytes=0", 4s},
       {"lose_sips=0.3", "lose_sips=0", 5s},
       {"silence=0.4", "", 400ms},
@@ -50,7 +50,7 @@ void print(const DriveSetup& settings, const DriveResult& result, const DrivenRo
       result.lost);
 }
 
-/// Within two seconds of a fault's end, or five where the link or the session was lost.
+/// Odometry must return within two seconds of a fault's end, or within five if the link or the session was lost.
 void expect_always_back(const DriveResult& result) {
   Duration longest{}, longest_link{};
   for (const Struck& struck : result.struck) {
@@ -64,7 +64,7 @@ void expect_always_back(const DriveResult& result) {
               to_seconds(longest_link));
 }
 
-/// What the robot moved unseen is no more than two of the deviations that the driver gives it.
+/// The unobserved motion must be within two of the standard deviations that the driver states.
 void expect_gaps_covered(std::span<const Sighting> sightings) {
   for (std::size_t i = 1; i < sightings.size(); ++i) {
     const Sighting &before = sightings[i - 1], &now = sightings[i];
@@ -77,8 +77,8 @@ void expect_gaps_covered(std::span<const Sighting> sightings) {
 
 class EnduranceTest : public testing::TestWithParam<std::uint64_t> {
  public:
-  /// Half an hour. The errors that are allowed: without any fault the lab's worst is 0.3 m; while a fault lasts the
-  /// robot moves unseen, at most 1.7 m in the longest outage.
+  /// Drives for half an hour. The limits of the errors: without faults the largest error in the lab is 0.3 m; during a
+  /// fault the robot moves unobserved, at most 1.7 m in the longest outage.
   static void endure(const DriveSetup& settings) {
     DriveWithFaults drive(settings);
     const DriveResult result = drive.run(30min);
@@ -89,7 +89,7 @@ class EnduranceTest : public testing::TestWithParam<std::uint64_t> {
     expect_always_back(result);
     expect_gaps_covered(drive.robot().sightings);
     expect_agreement(drive.robot().sightings, 0.004);
-    // A session that opens tells its parameters; else nothing allocates.
+    // Opening a session allocates for its parameters; nothing else may allocate.
     EXPECT_LE(drive.robot().allocations_while_running, 4 * state.sessions);
     EXPECT_EQ(result.lost, 0U);
     EXPECT_LT(result.mean_error_m, 0.1);
@@ -102,7 +102,7 @@ TEST_P(EnduranceTest, AFaultEveryTenSeconds) {
   endure({.seed = GetParam(), .faults = all_faults(), .watchdog = 700ms});
 }
 
-/// Somebody else goes on driving while the robot cannot be reached.
+/// The robot keeps driving while the link is down.
 TEST_P(EnduranceTest, AFaultEveryTenSecondsDrivingOnUnseen) { endure({.seed = GetParam(), .faults = all_faults()}); }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, EnduranceTest, testing::Values(1, 2, 3, 4, 5), PrintedName());

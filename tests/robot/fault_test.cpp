@@ -1,5 +1,5 @@
-// Every fault the simulator knows, on a robot that drives round the lab: the driver comes back and its odometry is
-// that of the wheels.
+// Every fault of the simulator, on a robot that drives round the lab: the driver must recover, and its odometry must
+// agree with the wheels.
 
 #include "sim/pioneer/fault.hpp"
 
@@ -17,10 +17,10 @@ namespace {
 using namespace std::chrono_literals;
 
 struct FaultCase {
-  std::string fault, end;  // `end` empty: it passes by itself, or is to stay
+  std::string fault, end;  // empty `end`: the fault ends by itself or is permanent
   bool before_session = false;
   double walk_m = 0.004;   // see expect_agreement()
-  std::size_t sips = 350;  // at least, of 600
+  std::size_t sips = 350;  // least number, of 600
 };
 std::ostream& operator<<(std::ostream& out, const FaultCase& one) {
   return out << one.fault << (one.before_session ? " from the start" : "");
@@ -47,7 +47,7 @@ const FaultCase kFaultCases[] = {
     {"watchdog=1000", ""},
     {"hostbaud=refused", "", true},
     {"sonar", "sonar=off"},
-    // On a line that is full at 9600 baud SIPs wait behind CONFIGpac; their stamps tell nothing of that.
+    // On a saturated line at 9600 baud SIPs wait behind a CONFIGpac, which their stamps do not reveal.
     {"sonar", "", true, 0.03},
     {"estop", "", true},
     {"old_session", "", true},
@@ -96,7 +96,8 @@ TEST_P(FaultTest, EndsRunningWithTheWheelsOdometry) {
   EXPECT_EQ(robot.state().refused_readings, 0U);
   const Agreement found = agreement(robot.sightings);
   RecordProperty("worst_mm", std::to_string(1000.0 * found.worst_m));
-  // A driver that wakes up for nothing would keep a processor busy: a turn for each byte, and its own timers.
+  // A driver that wakes without reason would load the processor. One turn per byte and the driver's timers are
+  // acceptable.
   EXPECT_LT(robot.turns, robot.pioneer().counts().bytes_to_client + robot.pioneer().counts().bytes_from_client + 2000);
 }
 

@@ -1,4 +1,4 @@
-// A controller behind TCP that hangs for some seconds: how soon odometry comes again, and what it has lost.
+// A controller behind TCP that hangs for some seconds: the time until odometry returns, and the motion that it loses.
 
 #include <algorithm>
 #include <cstdio>
@@ -17,13 +17,13 @@ using namespace std::chrono_literals;
 
 constexpr double kSpeed_m_per_s = 0.5;
 
-/// What hangs, and what that does to the bytes meanwhile.
+/// The part that hangs, which determines what happens to the bytes.
 enum class Hang {
-  line,             ///< dead behind its bridge: they are lost
-  bridge,           ///< it takes connections in and forgets them, that of the robot's client as well
-  controller,       ///< its bridge keeps them until it reads again
-  server,           ///< the program that serves the connection is stopped: they wait
-  makers_simulator  ///< likewise, and it ends the session with the connection
+  line,             ///< the line behind the bridge is dead; the bytes are lost
+  bridge,           ///< the bridge accepts connections and forgets them, including the client's own
+  controller,       ///< the bridge stores the bytes until the controller reads again
+  server,           ///< the serving program is stopped; the bytes wait
+  makers_simulator  ///< as `server`, and the program ends the session with the connection
 };
 
 std::string_view name(Hang hang) {
@@ -44,9 +44,9 @@ std::string_view name(Hang hang) {
 std::ostream& operator<<(std::ostream& out, Hang hang) { return out << name(hang); }
 
 struct Comeback {
-  double after_s = 0.0;  ///< from the hang's end to the first reading
+  double after_s = 0.0;  ///< from the end of the hang to the first reading
   std::uint64_t sessions = 0;
-  double drift_m = 0.0;  ///< of the way since the beginning, where the origin is the same
+  double drift_m = 0.0;  ///< distance error since the start, if the origin is the same
   bool same_origin = false;
 };
 
@@ -94,12 +94,12 @@ TEST_P(HangTest, OdometryIsBackWithinASecond) {
   EXPECT_LT(after_s.back(), 1.0);
 }
 
-/// A robot that never listens there again once its client has hung up, and its client who knows that port alone.
+/// A robot that changes its port when its client hangs up, and a client that knows only the first port.
 class MovingRobot : public testing::Test {
  protected:
   MovingRobot() { bench_.ends_session_with_client = bench_.moves_when_hung_up_on = true; }
 
-  /// It hangs again and again for 4 to 7 s, each time otherwise.
+  /// The server hangs repeatedly, each time for a different time from 4 to 7 s.
   void expect_to_have_it_back_after_each_hang() {
     bench_.run(3s);
     ASSERT_FALSE(bench_.readings.empty());
@@ -138,7 +138,7 @@ TEST_F(MovingRobot, ThatLetsOthersWaitIsBackWithinHalfASecond) { expect_to_have_
 TEST_F(MovingRobot, ThatIsSilentForLongerThanItsCountersCanTellIsNotHungUpOnEither) {
   bench_.run(3s);
   bench_.stopped = true;
-  bench_.run(20s);  // 44 m at most, and the counters wrap after 33
+  bench_.run(20s);  // at most 44 m; the counters wrap after 33 m
   bench_.stopped = false;
   EXPECT_LT(bench_.run_to_reading(20s), 1s);
   EXPECT_EQ(bench_.moves(), 0U);
@@ -156,7 +156,7 @@ TEST_F(MovingRobot, WhoseControllerRestartsMeanwhileIsFoundOnTheConnectionThatSt
 }
 
 TEST(BridgeInTelnetMode, IsNamedAndMadeUpFor) {
-  // GIVEN a robot that backs and turns, whose speeds are full of 0xFF
+  // GIVEN a robot that drives backwards in a curve, so that its speeds contain many bytes 0xFF
   EvenChassis chassis{{-0.2, -0.3}};
   TcpBench bench(chassis);
   bench.speaks_telnet = true;
@@ -174,7 +174,7 @@ TEST(BridgeInTelnetMode, IsNamedAndMadeUpFor) {
 }
 
 TEST(BridgeForOneClient, ThatForgotItsClientIsHungUpOnAtLast) {
-  // GIVEN one that keeps a connection nobody answers at, and for its sake turns others away
+  // GIVEN a server that keeps a dead connection and therefore rejects others
   EvenChassis chassis{{kSpeed_m_per_s, 0.0}};
   TcpBench bench(chassis);
   bench.run(3s);

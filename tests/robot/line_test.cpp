@@ -1,4 +1,4 @@
-// What single faults must and must not do to the odometry, exactly.
+// Exact effects of single faults on the odometry.
 
 #include <gmock/gmock.h>
 
@@ -19,7 +19,7 @@ class LineTest : public testing::Test {
     return *robot_;
   }
   double driven_m() { return robot().sightings.back().reading.T_odom_body.x_m; }
-  /// By the wheels, from the first reading to the last.
+  /// Path of the wheels from the first reading to the last.
   double wheels_m() { return robot().sightings.back().path_m - robot().sightings.front().path_m; }
 
   RobotSetup setup;
@@ -35,7 +35,7 @@ TEST_F(LineTest, KeepsTheDistanceOfLostSipsAtFullSpeed) {
     EvenChassis fast{{1.5, 0.0}};
     DrivenRobot robot(setup, fast);
     robot.fault("lose_sips=0.2");
-    robot.run(120s);  // past the wraps of 15 and 16 bits
+    robot.run(120s);  // beyond the wraps of 15 and 16 bits
     const Sighting &first = robot.sightings.front(), &last = robot.sightings.back();
     EXPECT_GT(last.path_m, 170.0);
     EXPECT_NEAR(last.reading.T_odom_body.x_m, last.path_m - first.path_m, kUnit_m);
@@ -118,7 +118,7 @@ INSTANTIATE_TEST_SUITE_P(All, OldSessionTest, testing::Values(9600, 19200, 38400
 
 class OutageTest : public LineTest, public testing::WithParamInterface<std::string> {};
 
-/// Controllers that restarted: the motion between is missing, and the driver says how much that may be.
+/// After a restart of the controller the motion in between is missing, and the driver states how large it may be.
 TEST_P(OutageTest, BeginsANewOriginAndCoversTheMotionMissed) {
   robot().run(10s);
   const Sighting before = robot().sightings.back();
@@ -143,7 +143,7 @@ INSTANTIATE_TEST_SUITE_P(All, OutageTest, testing::Values("reboot=0xFF", "reboot
 
 class ShortOutageTest : public LineTest, public testing::WithParamInterface<std::string> {};
 
-/// The controller counts on while its cable is out.
+/// The controller continues to count while its cable is unplugged.
 TEST_P(ShortOutageTest, LosesNoMotion) {
   robot().run(10s);
   const Sighting before = robot().sightings.back();
@@ -169,7 +169,7 @@ TEST_F(LineTest, NoticesRestartsByEitherId) {
   EXPECT_EQ(robot().state().connection, Connection::running);
 }
 
-/// Shorter than the connection's patience: nothing is lost, and what went on unseen is doubted a little.
+/// A silence shorter than the connection's timeout loses no distance; the driver adds a small uncertainty.
 TEST_F(LineTest, SilenceWithinTheSessionLosesNoDistance) {
   robot().run(10s);
   const Sighting before = robot().sightings.back();
@@ -206,7 +206,7 @@ TEST_F(LineTest, ShowsStallsAndBumpers) {
 TEST_F(LineTest, UsesTheAnalogGyroOfARobotThatHasOne) {
   setup.model.has_gyro = true;
   chassis.twist = {};
-  robot().run(10s);  // the gyro's rate at rest is learnt
+  robot().run(10s);  // the driver learns the gyro's rate at rest
   EXPECT_TRUE(robot().state().uses_gyro);
   chassis.twist = {0.3, 0.4};
   robot().run(60s);
@@ -216,7 +216,7 @@ TEST_F(LineTest, UsesTheAnalogGyroOfARobotThatHasOne) {
   EXPECT_EQ(robot().state().gaps, 0U);
 }
 
-/// 1 of 500 bytes wrong: each costs its packet, and no motion.
+/// With 1 of 500 bytes damaged, the affected packets are lost, but no motion.
 TEST_F(LineTest, NoiseCostsPacketsAndNoMotion) {
   robot().run(5s);
   robot().fault("noise=0.002");
@@ -229,8 +229,8 @@ TEST_F(LineTest, NoiseCostsPacketsAndNoMotion) {
   EXPECT_NEAR(driven_m(), wheels_m(), kUnit_m);
 }
 
-/// So much noise that now and then a damaged packet has the right checksum. What it says of motion is gone with the
-/// next good one, to centimetres; until then the driver doubts it, unless the robot could have done it.
+/// With this much noise a damaged packet sometimes has a valid checksum. The next good packet corrects the forged
+/// motion to within centimetres; until then the driver reports uncertainty, unless the motion is physically possible.
 TEST_F(LineTest, WhatNoiseForgesIsDoubtedAndDoesNotStay) {
   constexpr double kForged_m = 0.5, kImpossible_m = 1.0;
   chassis.twist = {0.4, 0.1};

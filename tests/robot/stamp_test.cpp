@@ -1,4 +1,4 @@
-// How far the driver's stamps are from the instants at which the controller looked at its wheels.
+// Error of the driver's stamps relative to the instants at which the controller sampled its wheels.
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@ std::ostream& operator<<(std::ostream& out, const StampCase& one) { return out <
 
 const AdapterSettings kEven{1ms, {}, {}};
 const AdapterSettings kSlow{16ms, {}, {}};
-/// Bytes wait for the next tick of a millisecond's timer and for the host.
+/// Bytes wait for the next tick of a 1 ms timer and for the host.
 const AdapterSettings kTimer{100us, 1ms, 700us};
 
 const StampCase kStampCases[] = {
@@ -48,7 +48,8 @@ TEST_P(StampTest, IsWithinTwoMillisecondsOfTheLatch) {
   RobotSetup setup;
   setup.settings.raised_baud = one.raised_baud;
   setup.settings.usb_latency_s = one.usb_latency_s;
-  if (one.sonar && one.raised_baud == 0) setup.settings.encoder = PioneerFeature::off;  // there is no room for both
+  // The line has no capacity for both.
+  if (one.sonar && one.raised_baud == 0) setup.settings.encoder = PioneerFeature::off;
   setup.model.has_gyro = one.gyro;
   setup.adapter = one.adapter;
   EvenChassis chassis({0.4, 0.2});
@@ -68,7 +69,8 @@ TEST_P(StampTest, IsWithinTwoMillisecondsOfTheLatch) {
               mean_ms, p95_ms, error_ms.back());
   EXPECT_LT(p95_ms, 2.0);
   const auto far_off = error_ms.end() - std::ranges::upper_bound(error_ms, 5.0);
-  // Only while the session is set up: SIPs that wait behind CONFIGpac, and on a line without slack those after it.
+  // Large errors occur only while the session opens: SIPs wait behind a CONFIGpac and, on a saturated line, delay later
+  // SIPs.
   EXPECT_LE(far_off, one.sonar && one.raised_baud == 0 ? 20 : 4);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The real driver and the simulated controller at the two ends of a TCP connection: real sockets, virtual time.
+// The real driver and the simulated controller at the two ends of a TCP connection, with real sockets in virtual time.
 
 #include <string>
 #include <vector>
@@ -12,33 +12,33 @@ namespace azimuth::test {
 
 class TcpBench {
  public:
-  /// `chassis` outlives this.
+  /// `chassis` must outlive this object.
   explicit TcpBench(sim::Chassis& chassis, const sim::PioneerModel& model = {});
   ~TcpBench();
   TcpBench(const TcpBench&) = delete;
   TcpBench& operator=(const TcpBench&) = delete;
 
-  /// Both ends get their turn every 5 ms; a stopped server does nothing, and its kernel goes on collecting bytes.
+  /// Runs both ends every 5 ms. A stopped server does nothing, while its kernel continues to buffer bytes.
   void run(Duration duration);
-  /// Until the driver has a reading, at most so long; how long it took.
+  /// Runs until the driver has a reading, at most for `at_most`; returns the elapsed time.
   Duration run_to_reading(Duration at_most);
 
-  bool stopped = false;                   ///< as by SIGSTOP
-  bool lets_die = false;                  ///< takes clients in and never serves them, not even later
-  bool holds_back = false;                ///< a bridge keeps what comes for a controller that reads nothing at present
-  bool ends_session_with_client = false;  ///< as the makers' simulator does; a bridge does not
-  bool moves_when_hung_up_on = false;     ///< as AMRISim does: then it listens at the next port
-  bool client_is_dead = false;            ///< nothing passes between it and the robot, as long as it stays
-  bool speaks_telnet = false;             ///< a bridge does that nobody has set to raw mode
-  bool refuses_others = false;            ///< it listens only while it has no client
+  bool stopped = false;                   ///< stopped as by SIGSTOP
+  bool lets_die = false;                  ///< accepts clients and never serves them
+  bool holds_back = false;                ///< the bridge stores the bytes while the controller does not read
+  bool ends_session_with_client = false;  ///< as the manufacturer's simulator does; a bridge does not
+  bool moves_when_hung_up_on = false;     ///< as AMRISim does: it then listens at the next port
+  bool client_is_dead = false;            ///< no bytes pass while this client is connected
+  bool speaks_telnet = false;             ///< as a bridge that is not in raw mode
+  bool refuses_others = false;            ///< listens only while it has no client
   std::vector<OdometryReading> readings;
   std::vector<std::string> events;
 
   Stamp now() const { return now_; }
   sim::SimulatedPioneer& pioneer() { return pioneer_; }
   const PioneerState& state() const { return driver_.state(); }
-  std::uint64_t connections() const { return connections_; }  ///< that the server took in
-  std::uint64_t moves() const { return moves_; }              ///< to another port
+  std::uint64_t connections() const { return connections_; }  ///< accepted by the server
+  std::uint64_t moves() const { return moves_; }              ///< number of changes of the port
 
  private:
   void turn_server();

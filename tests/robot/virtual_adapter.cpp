@@ -52,7 +52,7 @@ class VirtualAdapter::End final : public Link {
     adapter_.pioneer_.set_client_baud(baud);
     return std::nullopt;
   }
-  /// What the kernel has; the adapter's own buffer is out of its reach.
+  /// Discards the kernel's input; the adapter's own buffer is unaffected.
   void discard_input() override {
     auto& arriving = adapter_.arriving_;
     while (!arriving.empty() && arriving.front().at <= adapter_.now_) arriving.pop_front();
@@ -66,7 +66,7 @@ class VirtualAdapter::End final : public Link {
 
 VirtualAdapter::VirtualAdapter(sim::SimulatedPioneer& pioneer, const AdapterSettings& settings, std::uint64_t seed)
     : pioneer_(pioneer), settings_(settings), random_(seed, RandomPurpose::line) {
-  constexpr std::size_t kLongestWrite = 1024;  // so that a driver's write never allocates
+  constexpr std::size_t kLongestWrite = 1024;  // prevents allocations in the driver's write
   written_.reserve(kLongestWrite);
 }
 
@@ -92,7 +92,7 @@ Stamp VirtualAdapter::arrival(Stamp now) {
     const auto ticks = (at.time_since_epoch() + settings_.timer - Duration{1}) / settings_.timer;
     at = Stamp(settings_.timer * ticks);
   }
-  // One transfer of the timer comes as a whole: only its first byte draws.
+  // A transfer of the timer arrives as a whole, so only its first byte draws a delay.
   if (!arriving_.empty() && at <= arriving_.back().at) return arriving_.back().at;
   return at + duration_from_seconds(random_.uniform(0.0, to_seconds(settings_.jitter)));
 }

@@ -1,5 +1,5 @@
 #pragma once
-// A USB serial adapter in virtual time: what lies between the simulated line and the driver.
+// A USB serial adapter in virtual time, between the simulated line and the driver.
 
 #include <cstdint>
 #include <deque>
@@ -11,32 +11,32 @@
 
 namespace azimuth::test {
 
-/// How long a byte that is whole on the wire takes to the driver.
+/// Delays of a byte from its end on the wire to the driver.
 struct AdapterSettings {
   Duration latency{1000};
-  /// Not zero: the adapter collects bytes and passes them on at the ticks of this timer ...
+  /// If not 0, the adapter collects bytes and delivers them at the ticks of this timer.
   Duration timer{};
-  /// ... and up to so much later, evenly spread: the host's own scheduling.
+  /// Additional random delay of the host's scheduling, uniformly distributed from 0 to `jitter`.
   Duration jitter{};
 };
 
-/// Owned by the test; links lead to it. Thread contract: thread-bound.
+/// Owned by the test; the links refer to it. Thread contract: thread-bound.
 class VirtualAdapter {
  public:
-  /// `pioneer` outlives this.
+  /// `pioneer` must outlive this object.
   VirtualAdapter(sim::SimulatedPioneer& pioneer, const AdapterSettings& settings, std::uint64_t seed);
 
   pioneer::LinkOpener opener();
 
-  /// Takes from the line what became whole by `now`. Bytes that nobody has opened the device for are gone.
+  /// Takes bytes from the line that are complete by `now`. Bytes are lost while nobody has the device open.
   void advance(Stamp now);
-  /// Hands what the driver wrote to the line.
+  /// Passes the driver's output to the line.
   void send_written();
-  /// When a driver that sleeps on the device wakes up next; never is Stamp::max().
+  /// The next instant at which a driver waiting for the device wakes up; Stamp::max() means never.
   Stamp due() const;
 
  private:
-  class End;  // the driver's
+  class End;  // the driver's end of the link
   struct Arriving {
     Stamp at{};
     std::uint8_t byte = 0;
@@ -52,7 +52,7 @@ class VirtualAdapter {
   std::deque<Arriving> arriving_;
   sim::Bytes whole_, written_;
   const End* open_ = nullptr;
-  bool torn_off_ = false;  // the cable was out while the device was open
+  bool torn_off_ = false;  // somebody unplugged the cable while the device was open
 };
 
 }  // namespace azimuth::test

@@ -1,5 +1,5 @@
 #pragma once
-// What the simulated wheels really did, beside what the controller makes of it.
+// The true motion of the simulated wheels, to compare with the controller's report.
 
 #include <cmath>
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace azimuth::test {
 
-/// Drives evenly on a line or a circle, whoever says what.
+/// Drives steadily on a line or a circle and ignores commands, except those of the watchdog.
 class EvenChassis final : public sim::Chassis {
  public:
   explicit EvenChassis(const sim::Twist& driven) : twist(driven) {}
@@ -24,7 +24,7 @@ class EvenChassis final : public sim::Chassis {
     return {forward_m - turn_rad * track_m / 2, forward_m + turn_rad * track_m / 2, turn_rad};
   }
   void drive(const std::optional<sim::Twist>& ordered) override {
-    held = ordered.has_value();  // nobody here orders: the watchdog does
+    held = ordered.has_value();  // only the watchdog orders in these tests
     if (held) twist = *ordered;
   }
   void hurry(double speed_m_per_s) override { twist.speed_m_per_s = speed_m_per_s; }
@@ -35,10 +35,10 @@ class EvenChassis final : public sim::Chassis {
   Stamp last_{};
 };
 
-/// Another chassis, and the integral of its wheels in exact arithmetic.
+/// Wraps another chassis and integrates the motion of its wheels exactly.
 class WheelReference final : public sim::Chassis {
  public:
-  /// `chassis` outlives this.
+  /// `chassis` must outlive this object.
   WheelReference(sim::Chassis& chassis, double track_m) : chassis_(chassis), track_m_(track_m) {}
 
   sim::WheelMotion roll_to(Stamp until) override {
@@ -54,7 +54,7 @@ class WheelReference final : public sim::Chassis {
   void drive(const std::optional<sim::Twist>& ordered) override { chassis_.drive(ordered); }
   void hurry(double speed_m_per_s) override { chassis_.hurry(speed_m_per_s); }
 
-  // At rolled_to().
+  // State at rolled_to().
   const Pose2& T_odom_body() const { return T_odom_body_; }
   double path_m() const { return path_m_; }
   Stamp rolled_to() const { return rolled_to_; }

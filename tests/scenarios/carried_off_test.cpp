@@ -1,4 +1,4 @@
-// A robot that is lifted and set down in a room that it has never seen, and later at home again.
+// Somebody carries the robot into a room that it has never seen, and later back home.
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -21,10 +21,12 @@ constexpr int kDrives = 20;
 constexpr double kAtHome_m = 0.3;
 
 struct CarriedDrive {
-  double until_said_s = INFINITY;   ///< from the first bearings next door until it is not `tracking`
-  double until_found_s = INFINITY;  ///< from the first bearings at home until it is `tracking` there
-  int said_before = 0;              ///< steps until it was carried off that were neither `starting` nor `tracking`
-  double tracking_m = 0.0;          ///< root mean square while it says so, as is ANEES
+  double until_said_s = INFINITY;   ///< from the first bearings next door until health is no longer `tracking`
+  double until_found_s = INFINITY;  ///< from the first bearings at home until health is `tracking`
+  /// Number of steps before the carrying with health other than `starting` or `tracking`.
+  int said_before = 0;
+  /// RMSE of the position over the steps with health `tracking`; `anees` covers the same steps
+  double tracking_m = 0.0;
   double anees = 0.0, tracking = 0.0;
 };
 
@@ -69,7 +71,7 @@ CarriedDrive driven_off(EncoderRobot robot, std::uint64_t seed) {
   return drive;
 }
 
-/// How many of the drives have to say it in time, to be found in time, and to be honest.
+/// Least number of drives that must notice the carrying in time, relocalise in time, and have consistent covariances.
 struct Fewest {
   int said = kDrives, found = kDrives - 1, honest = kDrives - 1;
   double worst_anees = 10.0;
@@ -109,7 +111,8 @@ EncoderRobot next_door_and_back(bool camera_covered) {
   return robot;
 }
 
-/// Stands at another place for as long, then is carried to where it begins, in sight of all landmarks.
+/// The robot stands at another place, is carried to its starting point, and then drives. It sees all landmarks
+/// throughout.
 Run put_down_where_it_begins(std::uint64_t seed) {
   EncoderRobot robot{.laps = 1};
   robot.seed = seed;
@@ -144,7 +147,7 @@ Run put_down_where_it_begins(std::uint64_t seed) {
   return run;
 }
 
-// Daemons start with the machine, and robots are put where they are to begin afterwards.
+// A daemon starts with its machine; somebody often puts the robot at its starting point afterwards.
 TEST(PutDown, BeforeItDrivesIsNotLostForGood) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const auto run = put_down_where_it_begins(seed);
@@ -162,14 +165,14 @@ TEST(PutDown, BeforeItDrivesIsNotLostForGood) {
 TEST(CarriedOff, UnseenIsFoundOutByNames) { expect_found_out(next_door_and_back(true), "unseen"); }
 TEST(CarriedOff, SeenIsFoundOutByNames) { expect_found_out(next_door_and_back(false), "seen"); }
 
-// One of twenty rooms next door looks, for an image or two, like home.
+// One of twenty rooms next door resembles home in one or two images.
 TEST(CarriedOff, UnseenIsFoundOutWithoutNames) {
   EncoderRobot robot = next_door_and_back(true);
   robot.names = false;
   expect_found_out(robot, "unseen, no names", {.worst_anees = 100.0});
 }
 
-// Until it is noticed that the robot is carried, what it sees on the way bends the map.
+// Images taken while the robot is carried distort the map until the estimator notices the carrying.
 TEST(CarriedOff, SeenIsFoundOutWithoutNames) {
   EncoderRobot robot = next_door_and_back(false);
   robot.names = false;

@@ -1,5 +1,5 @@
-// What may befall a camera that looks at a ceiling, with every estimator of lamps: nothing to see, one lamp, hundreds
-// of reflections, lamps that move or are switched off. Nothing may crash, and health must say what is the matter.
+// Disturbances of a camera that looks at a ceiling, for every lamp estimator: no lamps, one lamp, hundreds of
+// reflections, lamps that move or are switched off. No estimator may crash, and health must report the problem.
 
 #include <algorithm>
 #include <functional>
@@ -25,7 +25,7 @@ std::ostream& operator<<(std::ostream& out, const CeilingEstimator& kind) { retu
 const CeilingEstimator kKinds[] = {{"fastslam", [](const Rig& rig) { return make_fastslam_estimator(rig, {}); }},
                                    {"lamp_ekf", [](const Rig& rig) { return make_lamp_ekf_estimator(rig, {}); }}};
 
-/// What became of a run, image by image.
+/// Result of a run, image by image.
 struct Drive {
   std::vector<Health> health;
   std::vector<Eigen::Vector2d> poses, truth;
@@ -45,10 +45,10 @@ double worst_error_m(const std::vector<Eigen::Vector2d>& estimated, const std::v
   return worst_m;
 }
 
-/// FastSLAM draws its poses: where nothing corrects them they wander as much again as odometry does.
+/// FastSLAM samples its poses: without corrections their error can be twice that of odometry.
 double as_good_as_odometry_m(const Drive& drive) { return 2.0 * worst_error_m(drive.odometry, drive.truth) + 0.5; }
 
-/// What holds of every estimate whatever was seen.
+/// Checks that must hold for every estimate.
 void expect_sound(const Estimate& estimate) {
   ASSERT_TRUE(estimate.T_map_body.vector().allFinite());
   ASSERT_TRUE(estimate.pose_covariance.allFinite());
@@ -85,7 +85,7 @@ Drive drive(const LampRun& run, const CeilingEstimator& kind) {
   return result;
 }
 
-/// Leaves only the sightings that `keep` says, by image and lamp.
+/// Removes the bearings that `keep` rejects, by image and lamp.
 void keep_only(LampRun& run, const std::function<bool(std::size_t image, int lamp)>& keep) {
   for (std::size_t i = 0; i < run.sets.size(); ++i) {
     std::vector<Bearing> bearings;
@@ -107,7 +107,7 @@ Bearing sighting_of(const LampRun& run, std::size_t image, const Eigen::Vector3d
   return {.azimuth_rad = seen.azimuth_rad, .elevation_rad = seen.elevation_rad};
 }
 
-/// Estimates that are within 1.5 m of none of the lamps.
+/// Number of mapped landmarks that are more than 1.5 m from every lamp.
 int phantoms(const Drive& drive, const LampRun& run) {
   const Pose2 T_world_map = align(drive.poses, drive.truth);
   return static_cast<int>(std::ranges::count_if(drive.last.landmarks, [&](const LandmarkEstimate& mapped) {
@@ -141,14 +141,14 @@ TEST_P(Ceilings, OneLampIsUsedAsFarAsItGoes) {
   EXPECT_LT(worst_error_m(one.poses, one.truth), as_good_as_odometry_m(one));
 }
 
-/// Anywhere in the image, never twice in the same place: a wet floor, chromium, the sun through leaves.
+/// Random reflections, each at a new place, as from a wet floor, chromium or the sun through leaves.
 void dazzle(LampRun& run, std::size_t from_image) {
   RandomDraws draws(3);
   for (std::size_t i = from_image; i < run.sets.size(); ++i) {
     for (int k = 0; k < 300; ++k)
       run.sets[i].bearings.push_back(
           {.azimuth_rad = draws.uniform(-kPi, kPi), .elevation_rad = std::asin(draws.uniform(0.35, 1.0))});
-    std::ranges::sort(run.sets[i].bearings, {}, &Bearing::azimuth_rad);  // lamps come among the others
+    std::ranges::sort(run.sets[i].bearings, {}, &Bearing::azimuth_rad);  // mixes the lamps with the reflections
   }
 }
 
@@ -169,7 +169,7 @@ TEST_P(Ceilings, KnownLampsAreFoundAmongHundredsOfReflections) {
   EXPECT_LT(worst_error_m(dazzled.poses, dazzled.truth), 0.7);
 }
 
-/// Fixed to the robot: what its own lamps throw on a guard, seen in the same direction for ever.
+/// Reflections fixed to the robot, such as its own lamps on a guard, always appear in the same direction.
 TEST_P(Ceilings, WhatRidesAlongIsNotMapped) {
   LampRun run = simulated_hall(4);
   for (std::size_t i = 0; i < run.sets.size(); ++i)
@@ -183,7 +183,7 @@ TEST_P(Ceilings, WhatRidesAlongIsNotMapped) {
   EXPECT_LT(worst_error_m(guarded.poses, guarded.truth), 1.0);
 }
 
-/// A lamp on a crane, to and fro by 2 m.
+/// A lamp on a crane moves back and forth by 2 m.
 TEST_P(Ceilings, ALampThatMovesDoesNotTakeTheRobotAlong) {
   LampRun run = simulated_hall(5);
   constexpr int kMoving = 6;
@@ -203,7 +203,7 @@ TEST_P(Ceilings, ALampThatMovesDoesNotTakeTheRobotAlong) {
 
 TEST_P(Ceilings, LampsSwitchedOffAreMissedAndRecognisedAgain) {
   LampRun run = simulated_hall(6);
-  const std::size_t off = run.sets.size() / 2, on = off + 60;  // 16 m of darkness
+  const std::size_t off = run.sets.size() / 2, on = off + 60;  // the lamps are off for 16 m of the drive
   keep_only(run, [&](std::size_t image, int) { return image < off || image >= on; });
   const Drive dark = drive(run, GetParam());
   EXPECT_EQ(dark.health[off - 1], Health::tracking);

@@ -1,4 +1,5 @@
-// SPEC part IV, "coloured": what the paper's experiment comes to with the corrected settings and with the printed ones.
+// Compares the default settings with the paper's printed settings on the paper's experiment (mathematics part IV,
+// "coloured").
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -19,7 +20,7 @@ TEST(ColouredLab, DefaultSettingsNeverDivergeAndAreHonest) {
       replay_seeds(kColouredSeeds, [](std::uint64_t seed) { return replayed(simulated_run(coloured_lab(seed))); });
   runs.print("coloured lab, default");
 
-  // THEN no run diverges, positions are good to the noise, and covariances tell the truth
+  // THEN no run diverges, the position errors agree with the noise, and the covariances are consistent
   EXPECT_EQ(runs.diverged(), 0);
   EXPECT_LE(runs.mean_m(), 0.15);
   EXPECT_GE(runs.anees(), 2.0);
@@ -34,7 +35,7 @@ TEST(ColouredLab, PrintedSettingsFailFarMoreOften) {
   const auto failures = [&](const Runs& runs) {
     return static_cast<int>(std::count_if(runs.reports.begin(), runs.reports.end(), failed));
   };
-  // WHEN they are replayed as the paper prints it: a loose quality test and no gate
+  // WHEN they are replayed with the paper's printed settings: a loose quality test and no gate
   const Runs paper = replay_seeds(kColouredSeeds, [](std::uint64_t seed) {
     const auto run = simulated_run(coloured_lab(seed));
     return replayed(run, paper_preset());
@@ -45,7 +46,7 @@ TEST(ColouredLab, PrintedSettingsFailFarMoreOften) {
   fmt::print("diverged or inconsistent (ANEES above 10): paper {}, default {} of {}\n", failures(paper), failures(ours),
              kColouredSeeds);
 
-  // THEN many diverge or become inconsistent, where the default hardly ever does
+  // THEN many runs diverge or become inconsistent, but very few with the default settings
   EXPECT_GE(failures(paper), kColouredSeeds / 4);
   EXPECT_LE(failures(ours), kColouredSeeds / 10);
   EXPECT_GT(paper.mean_m(), 2.0 * ours.mean_m());

@@ -1,4 +1,4 @@
-// SPEC I.12 to I.14: features that are known by their looks alone.
+// Features that only their descriptors identify (mathematics I.12 to I.14).
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -42,19 +42,19 @@ FeatureOutcome drive_through_features(const EkfSettings& settings, const Feature
 class Features : public testing::TestWithParam<FeatureValidation> {};
 
 TEST_P(Features, AreToldApartByTheirLooks) {
-  // GIVEN a room full of features, of which an image shows 70 % of those in reach; some look alike, some are clutter
+  // GIVEN a room full of features: an image shows 70 % of those in range, some look alike, some are clutter
   EkfSettings settings;
   settings.identity.validation = GetParam();
-  // WHEN a robot drives round it twice
+  // WHEN a robot drives two laps through the room
   const FeatureOutcome outcome = drive_through_features(settings);
   outcome.runs.print("features");
   fmt::print("wrong identities: {} of {} accepted\n", outcome.wrong, outcome.accepted);
-  // THEN names are right, the pose is good and its covariance honest
+  // THEN the identities are right, the pose error is small and its covariance consistent
   EXPECT_GT(outcome.accepted, 4000u);
   EXPECT_LT(outcome.wrong_share(), 0.01);
   EXPECT_EQ(outcome.runs.diverged(), 0);
   EXPECT_LE(outcome.runs.mean_m(), 0.10);
-  EXPECT_GE(outcome.runs.anees(), 0.7);  // its rig is exact, which nobody has told the filter
+  EXPECT_GE(outcome.runs.anees(), 0.7);  // low because the rig is exact, which the filter does not assume
   EXPECT_LE(outcome.runs.anees(), 6.0);
 }
 
@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(Validations, Features,
                          test::PrintedName());
 
 TEST(FeaturesOfPoorRepeatability, AreStillEnough) {
-  // Odometry that loses its heading too fast for delayed initialisation, too.
+  // The heading of this odometry also drifts too fast for delayed initialisation.
   const FeatureOutcome outcome =
       drive_through_features({}, {.repeatability = 0.55, .look_alikes = 0.3, .heading_drift_rad2_per_m = 1e-3}, 2);
   outcome.runs.print("features, poor");

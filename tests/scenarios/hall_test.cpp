@@ -1,5 +1,5 @@
-// An upward camera's images of a hall with lamps and windows, ray-traced by others and not shipped: what FastSLAM
-// and the lamp EKF must reach from them.
+// Accuracy that FastSLAM and the lamp EKF must reach on a run that is not shipped: images of an upward camera in a hall
+// with lamps and windows, ray-traced by another renderer.
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +37,7 @@ void switch_off(const FrameFormat&, std::vector<std::byte>& pixels, int image) {
   if (image >= 150 && image < 200) std::ranges::fill(pixels, std::byte{3});
 }
 
-/// From the middle of the run on, hundreds of spots as bright as lamps, wherever they fall.
+/// From the middle of the run on, hundreds of spots as bright as lamps at random places.
 void glitter(const FrameFormat&, std::vector<std::byte>& pixels, int image) {
   if (image < 160) return;
   RandomDraws draws(static_cast<unsigned>(image));
@@ -59,7 +59,7 @@ class Hall : public testing::Test {
     return rig;
   }
 
-  /// The run with what is found in its images in their place, by a rig that has this tilt.
+  /// The run with bearings that the front end detects in its images, for a rig with the tilt `told`.
   static azimuth::Run looked_at(const Spoil& spoil = leave, const CameraTilt& told = {}) {
     azimuth::Run run = *load_run(test::data_folder() / kHall);
     const Rig rig = rig_with(run, told);
@@ -98,7 +98,7 @@ class Hall : public testing::Test {
   }
 };
 
-// One of the lamps never comes higher above the horizon than the lamp EKF looks.
+// One lamp never rises above the elevation from which on the lamp EKF uses lamps.
 constexpr std::size_t kTooLow = 1;
 
 TEST_F(Hall, TheLampEkfMapsEveryLampOnceAndNoWindow) {
@@ -110,7 +110,7 @@ TEST_F(Hall, TheLampEkfMapsEveryLampOnceAndNoWindow) {
   EXPECT_EQ(report.health, "tracking");
 }
 
-/// The camera is level, and its rig says that it leans.
+/// The camera is level, but the rig states a tilt.
 TEST_F(Hall, TheLampEkfFindsHowTheCameraLeans) {
   const double level_m = lamp_ekf(looked_at()).position_m.rmse;
   for (const double tilt_deg : {1.0, 2.0}) {
@@ -160,7 +160,7 @@ TEST_F(Hall, ThePapersWayWorksAsTheyReport) {
   }
 }
 
-/// 13 m of it, by odometry alone; the lamps known before are recognised after it.
+/// The lamps are off for 13 m, where only odometry is available; afterwards the known lamps are recognised.
 TEST_F(Hall, DarknessIsSurvived) {
   const Report report = fastslam(looked_at(switch_off), 1);
   EXPECT_LT(report.position_m.rmse, report.odometry_m.rmse);

@@ -1,5 +1,5 @@
-// The smoother as an estimator beside the EKF, on the same drives with names: as they should be, and with everything
-// that goes wrong on real ones.
+// Compares the smoother estimator with the EKF on the same drives with names, undisturbed and with typical disturbances
+// of real drives.
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace azimuth {
 namespace {
 
 constexpr int kSeeds = 4;
-// Worse than the EKF by no more than this.
+// Largest acceptable error relative to the EKF's.
 constexpr double kNotWorse = 1.1, kRounding_m = 0.002;
 
 struct Both {
@@ -83,7 +83,7 @@ TEST(InHindsight, AThirdOfAllBearingsIsOfNothing) {
 }
 
 TEST(InHindsight, SomeLandmarksWalkAbout) {
-  // GIVEN three names of 24 whose bearers sway to and fro
+  // GIVEN 3 of 24 named landmarks that sway back and forth
   const Both runs = both("walking landmarks", [](std::uint64_t seed) {
     Scenario scenario = lab(seed);
     const auto run = simulated_run(scenario);
@@ -94,13 +94,13 @@ TEST(InHindsight, SomeLandmarksWalkAbout) {
           bearing.azimuth_rad = wrap(bearing.azimuth_rad + 0.6 * std::sin(0.2 * to_seconds(set.stamp)));
     return moved;
   });
-  // THEN they do little harm: a filter forgets them sooner
+  // THEN the harm is small, though larger than in the filter, which forgets old positions sooner
   EXPECT_EQ(runs.smoothed.diverged(), 0);
   EXPECT_LE(runs.smoothed.mean_m(), 1.4 * runs.filtered.mean_m());
   EXPECT_LE(runs.smoothed.anees(), 6.0);
 }
 
-/// From `when` on odometry says that the robot stands `apart` from where it does.
+/// From `when_s` on, odometry reports poses displaced by `apart`.
 Run with_slip(Run run, double when_s, const Pose2& apart) {
   const Stamp when = run.odometry.front().stamp + duration_from_seconds(when_s);
   for (OdometryReading& reading : run.odometry)
@@ -115,7 +115,7 @@ TEST(InHindsight, WheelsSlipUnseen) {
     const Pose2 by = apart;
     const Both runs =
         both(title, [&](std::uint64_t seed) { return with_slip(simulated_run(lab(seed, 3)), 120.0, by); });
-    // THEN the robot is found again on its map
+    // THEN the robot relocalises on its map
     for (const Report& report : runs.smoothed.reports) {
       EXPECT_LT(report.position_m.final, 0.3) << report.health;
       EXPECT_EQ(report.health, "tracking");

@@ -1,4 +1,4 @@
-// A robot that sees nothing for long, and one that goes nowhere for long.
+// A robot without bearings for a long time, and a robot that stands still for a long time.
 
 #include <fmt/format.h>
 #include <functional>
@@ -17,17 +17,17 @@ namespace {
 constexpr int kGapSeeds = 10;
 
 TEST(Gap, TwoMinutesInTheDarkAreSurvived) {
-  // GIVEN six laps of which nearly two are driven without a single bearing
+  // GIVEN six laps, of which nearly two pass without a single bearing
   const auto interrupted = [](std::uint64_t seed) {
     auto run = simulated_run(lab(seed, 6));
     std::erase_if(run.bearings,
                   [](const BearingSet& set) { return to_seconds(set.stamp) > 150.0 && to_seconds(set.stamp) < 270.0; });
     return run;
   };
-  // WHEN the light comes back
+  // WHEN bearings arrive again
   const Runs runs = replay_seeds(kGapSeeds, [&](std::uint64_t seed) { return replayed(interrupted(seed)); });
   runs.print("lab, two minutes dark");
-  // THEN the robot finds itself on its old map
+  // THEN the robot relocalises on its old map
   int found = 0;
   for (const Report& report : runs.reports)
     found += report.position_m.final < 0.2 && report.named_map.duplicates == 0 && report.health == "tracking" ? 1 : 0;
@@ -35,7 +35,7 @@ TEST(Gap, TwoMinutesInTheDarkAreSurvived) {
   EXPECT_GE(found, kGapSeeds - 1);
 }
 
-/// The world of `scenario` with a rest of `rest` inserted at `when`, during which camera and odometer go on.
+/// The world of `scenario` with a rest inserted at `when`, during which camera and odometer continue to measure.
 World with_rest(const Scenario& scenario, Stamp when, Duration rest) {
   World world = simulate(scenario);
   const Pose2 T_world_body = true_pose(world, when);
@@ -92,7 +92,7 @@ void expect_as_sure_after_ten_minutes(const std::function<std::unique_ptr<Estima
     // WHEN it stands still for ten minutes
     drive.run(world, when + rest - std::chrono::seconds(1));
     const Estimate after = drive.last();
-    // THEN its covariance has not grown, and 1200 looks at the same landmarks have not made it certain
+    // THEN its covariance has not grown, and 1200 images of the same landmarks have not made it overconfident
     fmt::print("rest, seed {}: sigma {:.4f} -> {:.4f} m, {:.5f} -> {:.5f} rad, error {:.4f} -> {:.4f} m\n", seed,
                sigma_m(before), sigma_m(after), sigma_heading_rad(before), sigma_heading_rad(after),
                position_error_m(world, before), position_error_m(world, after));
@@ -102,7 +102,7 @@ void expect_as_sure_after_ten_minutes(const std::function<std::unique_ptr<Estima
     EXPECT_GE(sigma_heading_rad(after), 0.4 * sigma_heading_rad(before));
     EXPECT_LT(position_error_m(world, after), 4.0 * sigma_m(after));
     EXPECT_EQ(after.health, Health::tracking);
-    // AND it goes on as if nothing had been
+    // AND the robot continues its drive as before
     drive.run(world);
     EXPECT_LT(position_error_m(world, drive.last()), 0.15);
     EXPECT_EQ(drive.last().health, Health::tracking);

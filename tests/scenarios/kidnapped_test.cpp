@@ -1,4 +1,4 @@
-// A robot that is picked up, carried away without its wheels turning, and set down elsewhere on its own map.
+// A robot that is lifted, carried without turning wheels, and set down at another place on its own map.
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ namespace {
 constexpr double kCarried_s = 170.0, kSeconds = 10.0;
 constexpr double kWrong_m = 0.5, kWrong_rad = 0.15;
 
-/// AZIMUTH_KIDNAPPINGS, else a few.
+/// Value of AZIMUTH_KIDNAPPINGS, else 4.
 int kidnappings() {
   const char* const asked = std::getenv("AZIMUTH_KIDNAPPINGS");
   return asked != nullptr ? std::max(1, std::atoi(asked)) : 4;

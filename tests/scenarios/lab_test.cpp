@@ -32,24 +32,24 @@ TEST(Lab, EitherInitialisationServes) {
     runs.print(initialisation == Initialisation::delayed ? "lab, delayed" : "lab, undelayed");
     EXPECT_EQ(runs.diverged(), 0);
     EXPECT_LE(runs.mean_m(), 0.06);
-    EXPECT_GE(runs.anees(), 1.0);  // its rig is exact, which nobody has told the filter
+    EXPECT_GE(runs.anees(), 1.0);  // low because the rig is exact, which the filter does not assume
     EXPECT_LE(runs.anees(), 5.0);
   }
 }
 
 TEST(Lab, ClutterWithoutNamesIsTrackedToTheEnd) {
   constexpr int kManySeeds = 20;
-  // GIVEN bearings without names, one in five images with something in it that is nothing
+  // GIVEN bearings without names, and one clutter bearing in every fifth image on average
   const auto cluttered = [](std::uint64_t seed) {
     Scenario scenario = lab(seed);
     scenario.sensor.identities = false;
     scenario.sensor.clutter_per_set = 0.2;
     return simulated_run(scenario);
   };
-  // WHEN the estimator has to find out what belongs to what
+  // WHEN the estimator has to associate the bearings itself
   const Runs runs = replay_seeds(kManySeeds, [&](std::uint64_t seed) { return replayed(cluttered(seed)); });
   runs.print("lab, no names, clutter");
-  // THEN it beats odometry, on the whole and in most runs; the others took one landmark for another early on
+  // THEN it beats odometry on average and in most runs; in the others an early association is wrong
   const auto better = std::ranges::count_if(
       runs.reports, [](const Report& report) { return report.position_m.mean < report.odometry_m.mean; });
   const double odometry_m = runs.mean_of([](const Report& report) { return report.odometry_m.mean; });
@@ -68,7 +68,7 @@ TEST(Lab, CalibrationOfTheRigCorrectsTheOdometer) {
     scenario.odometer.lag_s = 0.2;
     return simulated_run(scenario);
   };
-  // WHEN the rig knows, and when it does not
+  // WHEN the rig states these errors, and when it does not
   const Runs known = replay_seeds(kLabSeeds, [&](std::uint64_t seed) { return replayed(miscalibrated(seed)); });
   const Runs unknown = replay_seeds(kLabSeeds, [&](std::uint64_t seed) {
     const auto run = miscalibrated(seed);
@@ -79,13 +79,13 @@ TEST(Lab, CalibrationOfTheRigCorrectsTheOdometer) {
   });
   known.print("lab, calibrated");
   unknown.print("lab, not calibrated");
-  // THEN calibration makes it as good as a sound odometer
+  // THEN the calibrated rig reaches the accuracy of a correct odometer
   EXPECT_EQ(known.diverged(), 0);
   EXPECT_LE(known.mean_m(), 0.06);
   EXPECT_LT(known.mean_m(), 0.7 * unknown.mean_m());
 }
 
-/// The same run by a robot that was put down the other way round and drives in reverse.
+/// The same run for a robot that faces the other way and drives in reverse.
 Run reversed(Run run) {
   const Pose2 half_turn{0.0, 0.0, -kPi};
   for (OdometryReading& reading : run.odometry)
@@ -98,11 +98,11 @@ Run reversed(Run run) {
 
 TEST(Lab, DrivingBackwardsIsAsGoodAsDrivingForwards) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    // GIVEN a drive, and the very same drive in reverse
+    // GIVEN a drive, and the same drive in reverse
     const auto forwards = simulated_run(lab(seed));
     // WHEN both are replayed
     const Report ahead = replayed(forwards), back = replayed(reversed(forwards));
-    // THEN they are as good as each other: no half turns are charged
+    // THEN both have the same accuracy: driving in reverse costs no half turns
     EXPECT_NEAR(back.position_m.mean, ahead.position_m.mean, 1e-3);
     EXPECT_NEAR(back.consistency.anees, ahead.consistency.anees, 0.1);
     EXPECT_EQ(back.map.matched, ahead.map.matched);

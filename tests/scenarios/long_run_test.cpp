@@ -28,7 +28,7 @@ TEST_P(LongRun, StateOfTwentyLapsIsThatOfAFew) {
   EkfSettings settings;
   settings.initialisation = GetParam().initialisation;
   SimulatedDrive drive(rig_of(scenario), settings);
-  // WHEN five are driven, and then the others
+  // WHEN five laps are driven, and then the remaining ones
   drive.run(world, Stamp{std::chrono::seconds(5 * 70)});
   const Index early = drive.estimator().filter().state().extent();
   drive.run(world);
@@ -49,8 +49,8 @@ INSTANTIATE_TEST_SUITE_P(Kinds, LongRun,
                                          LongRunKind{"Undelayed", Initialisation::undelayed, true, 0.0}),
                          kName);
 
-// Known to fail: once a landmark is mapped twice, nothing takes the second one away, and the map goes on growing. To be
-// enabled when mapped landmarks that should be seen and are not count against themselves.
+// Known to fail: nothing removes a landmark that is mapped twice, so the map keeps growing. The test can be enabled as
+// soon as missing detections count against mapped landmarks.
 INSTANTIATE_TEST_SUITE_P(DISABLED_Kinds, LongRun,
                          testing::Values(LongRunKind{"WithoutIdentities", Initialisation::undelayed, false, 0.2}),
                          kName);

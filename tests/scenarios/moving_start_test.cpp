@@ -1,5 +1,4 @@
-// A daemon that is started while its robot drives: the camera was there first, and the odometer comes in the middle of
-// a curve.
+// The daemon starts while the robot drives: the camera delivers first, and odometry starts in the middle of a curve.
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -14,10 +13,10 @@ namespace azimuth {
 namespace {
 
 constexpr int kStarts = 20;
-constexpr Duration kEarly = std::chrono::milliseconds(500);  // of the camera before the odometer
+constexpr Duration kEarly = std::chrono::milliseconds(500);  // lead of the camera over the odometer
 constexpr Duration kDrive = std::chrono::seconds(30);
 
-/// The part of a run that such a daemon would have been given.
+/// The part of a run that such a daemon receives.
 Run started_at(const Run& whole, Stamp start) {
   Run run = whole;
   const auto keep = [&](auto& samples, Duration before) {
@@ -40,7 +39,7 @@ double median(std::vector<double> values) {
 }
 
 TEST(MovingStart, IsAsHonestAsAnyOther) {
-  // GIVEN a drive round the lab, and twenty places on it where the daemon is started
+  // GIVEN a drive round the lab, and twenty instants at which the daemon starts
   const FileResult<azimuth::Run> whole = load_run(test::source_folder() / "runs/lab");
   ASSERT_TRUE(whole) << text(whole.error());
   // WHEN each start is followed for half a minute
@@ -56,7 +55,7 @@ TEST(MovingStart, IsAsHonestAsAnyOther) {
   fmt::print(
       "{} moving starts: ANEES {:.2f} (median), {:.2f} at worst; bearings refused: {:.1f} %, {:.1f} % at worst\n",
       kStarts, median(anees), worst_anees, 100.0 * median(refused), 100.0 * most_refused);
-  // THEN their covariances say how good their poses are
+  // THEN the covariances are consistent with the pose errors
   EXPECT_LE(median(anees), 4.0);
   EXPECT_LE(worst_anees, 10.0);
   EXPECT_LE(most_refused, 0.2);

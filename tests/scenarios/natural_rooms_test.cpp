@@ -1,5 +1,5 @@
-// Rooms with nothing but what hangs on their walls, by seed: few of a room's features are seen again, and a robot that
-// is where it is thought to be is not lost for that; one that is carried off is, and finds itself again.
+// Rooms whose only features are on their walls, drawn by seed. Images repeat few of the features, but a robot with a
+// correct pose must not be called lost. A robot that is carried off must become lost and relocalise.
 
 #include <algorithm>
 #include <array>
@@ -27,8 +27,8 @@
 namespace azimuth {
 namespace {
 
-constexpr int kFirstSeed = 11;       // what came before was looked at while this was built
-constexpr double kDriven_s = 105.0;  // a lap and a half
+constexpr int kFirstSeed = 11;       // lower seeds serve for tuning the settings
+constexpr double kDriven_s = 105.0;  // one and a half laps
 constexpr double kCarried_s = 70.0, kSkipped_s = 17.0, kFoundWithin_s = 12.0;
 constexpr double kWrong_m = 0.5, kWrong_rad = 0.15;
 
@@ -37,9 +37,9 @@ int asked(const char* variable, int otherwise) {
   return value != nullptr ? std::max(1, std::atoi(value)) : otherwise;
 }
 
-/// AZIMUTH_NATURAL_ROOMS, else ten.
+/// Value of AZIMUTH_NATURAL_ROOMS, else 10.
 int rooms_asked() { return asked("AZIMUTH_NATURAL_ROOMS", 10); }
-/// AZIMUTH_NATURAL_ROOMS_FROM: to tune on rooms that are not judged by.
+/// Value of AZIMUTH_NATURAL_ROOMS_FROM: allows to tune on other rooms than the tested ones.
 std::uint64_t first_seed() { return static_cast<std::uint64_t>(asked("AZIMUTH_NATURAL_ROOMS_FROM", kFirstSeed)); }
 
 Rig feature_rig(const azimuth::Run& run) {
@@ -49,8 +49,7 @@ Rig feature_rig(const azimuth::Run& run) {
   return rig;
 }
 
-/// What is wrong with a room, in turn: nothing, light that goes down to half and comes back, a side that is dark,
-/// people.
+/// The disturbances of the rooms, in turn: none, light that falls to a half and rises again, a dark side, people.
 struct Trouble {
   std::string name;
   test::RoomTrouble room = {};
@@ -64,7 +63,7 @@ const std::array<Trouble, 4> kTroubles{
                         {.from_m = {6.0, 5.0}, .to_m = {8.0, 5.0}, .speed_m_per_s = 1.1, .rest_s = 3.0}}}}};
 const Trouble& trouble_of(std::uint64_t seed) { return kTroubles[seed % kTroubles.size()]; }
 
-/// The features in the images of a drive.
+/// The run with the features in the images of a drive as bearings.
 azimuth::Run features_of_room(std::uint64_t seed) {
   const test::TemporaryFolder folder;
   Scenario scenario = lab(seed);
@@ -87,9 +86,9 @@ azimuth::Run features_of_room(std::uint64_t seed) {
   return run;
 }
 
-/// What became of a robot that was carried off.
+/// Result for a robot that was carried off.
 struct CarriedOff {
-  std::optional<double> noticed_s, found_s;  ///< after it was set down
+  std::optional<double> noticed_s, found_s;  ///< time after the robot was set down
   bool found_wrong = false;
 };
 

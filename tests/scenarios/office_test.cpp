@@ -1,4 +1,5 @@
-// A mirror camera's images of an office, ray-traced by others and not shipped: what the image front ends must reach.
+// Accuracy that the image front ends must reach on a run that is not shipped: images of a mirror camera in an office,
+// ray-traced by another renderer.
 
 #include <algorithm>
 #include <cmath>
@@ -30,13 +31,13 @@ bool is_between(int image, int from, int to) { return image >= from && image < t
 
 void keep_the_light(const FrameFormat&, std::vector<std::byte>&, int) {}
 
-/// The lights go half out within one image, and on again.
+/// The light drops to a half from one image to the next, and later rises again.
 void half_the_light(const FrameFormat&, std::vector<std::byte>& pixels, int image) {
   if (!is_between(image % 100, 40, 60)) return;
   for (std::byte& value : pixels) value = value >> 1;
 }
 
-/// Somebody in a red jacket walks round the robot: a wide sector of the image, which moves.
+/// A person in a red jacket walks round the robot and covers a moving sector of the image.
 void a_person_walks_past(const FrameFormat& format, std::vector<std::byte>& pixels, int image) {
   if (!is_between(image % 100, 20, 60)) return;
   const int channels = bytes_per_pixel(format.pixels);
@@ -52,7 +53,7 @@ void a_person_walks_past(const FrameFormat& format, std::vector<std::byte>& pixe
     }
 }
 
-/// White for a while, then black, then the same image again and again while the robot drives on.
+/// White images for a while, then black images, then the same image repeatedly while the robot drives on.
 struct BlindSpells {
   void operator()(const FrameFormat&, std::vector<std::byte>& pixels, int image) {
     if (is_between(image, 100, 110)) std::ranges::fill(pixels, std::byte{255});
@@ -63,7 +64,7 @@ struct BlindSpells {
   std::vector<std::byte> kept;
 };
 
-/// Every tenth image has the lower half of an older one.
+/// Every tenth image contains the lower half of an older one.
 struct Torn {
   void operator()(const FrameFormat&, std::vector<std::byte>& pixels, int image) {
     if (image % 10 == 5) older = pixels;
@@ -78,13 +79,13 @@ class Office : public testing::Test {
  protected:
   void SetUp() override { AZIMUTH_REQUIRE_DATA(kOffice); }
 
-  /// The report of a replay with this front end; the image's centre is off by `knocked_px` along u.
+  /// Report of a replay with this front end. The image centre is shifted by `knocked_px` along u.
   static Report looked_at(FrontEnd front_end, const EkfSettings& settings = {}, double knocked_px = 0.0,
                           const Spoil& spoil = keep_the_light) {
     const auto run = load_run(test::data_folder() / kOffice);
     Rig rig = rig_of(*run);
     rig.front_end = front_end;
-    rig.odometry.sigma_scale_distance = 0.01;  // as measured
+    rig.odometry.sigma_scale_distance = 0.01;  // as measured for this odometer
     rig.camera.image.centre_px->at(0) += knocked_px;
     ImageFrontEnd images{std::make_unique<SpoiltPerception>(make_perception(front_end, rig.camera, {}), spoil),
                          decoded_format(front_end)};
@@ -109,7 +110,7 @@ class Office : public testing::Test {
   }
 
   static void expect_consistent(const Report& report) {
-    EXPECT_GE(report.consistency.anees, 0.3);  // its rig is exact, which nobody has told the filter
+    EXPECT_GE(report.consistency.anees, 0.3);  // low because the rig is exact, which the filter does not assume
     EXPECT_LE(report.consistency.anees, 6.0);
   }
 };
@@ -121,14 +122,14 @@ TEST_F(Office, CylindersAreMappedByColour) {
   EXPECT_LE(report.map.position_m.mean, 0.15);
   EXPECT_EQ(report.map.duplicates, 0u);
   EXPECT_LE(report.map.landmarks, 16u) << "what is printed on the walls is no landmark";
-  EXPECT_GE(report.consistency.anees, 0.15);  // its rig is exact, which nobody has told the filter
+  EXPECT_GE(report.consistency.anees, 0.15);  // low because the rig is exact, which the filter does not assume
   EXPECT_LE(report.consistency.anees, 5.0);
 }
 
 TEST_F(Office, AKnockedMirrorIsNoticedAndAllowedFor) {
   const Report report = looked_at(FrontEnd::colour, {}, 10.0);
   EXPECT_LE(report.position_m.rmse, 0.12);
-  EXPECT_LE(report.consistency.anees, 5.0);  // of centimetres; 1500 when the rig is believed
+  EXPECT_LE(report.consistency.anees, 5.0);  // consistent, because the estimator allows for the error of the rig
   EXPECT_EQ(report.health, "degraded") << "the rig should be calibrated anew";
 }
 
@@ -146,7 +147,7 @@ TEST_F(Office, FeaturesAreToldApartByPatterns) {
   expect_consistent(report);
 }
 
-/// Whatever happens in front of the camera or behind it: the robot knows where it is.
+/// Image disturbances must not make the pose wrong.
 class SpoiltOffice : public Office {
  protected:
   static void expect_no_harm(const Spoil& spoil) {

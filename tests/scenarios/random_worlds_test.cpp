@@ -1,4 +1,4 @@
-// Landmarks all alike in worlds drawn at random: what is said of the error holds.
+// Identical landmarks in randomly drawn worlds: the errors must agree with the stated covariances.
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -42,11 +42,12 @@ TEST(RandomWorld, ItsRigTakesTheOdometersScalesForRight) {
   EXPECT_NE(run.rig_toml.find("scale_turn = 1.0\n"), std::string::npos);
 }
 
-// Some of the 200 of bench/worlds. Among them is one (193) where a wrong map is found late, which explains little.
+// Uses some of the 200 worlds of tests/bench/worlds. In world 193 a wrong map, which explains few bearings, is noticed
+// late.
 TEST(RandomWorlds, ErrorsAreWithinWhatIsSaidOfThem) {
   constexpr std::uint64_t kFirst = 187, kWorlds = 12;
   Configuration configuration;
-  configuration.estimator = "smoother";
+  configuration.estimator = EstimatorKind::smoother;
   std::vector<WorldScore> worlds;
   double live_m = 0.0, odometry_m = 0.0, tracking = 0.0, worst_anees = 0.0;
   for (std::uint64_t seed = kFirst; seed < kFirst + kWorlds; ++seed) {
@@ -55,7 +56,7 @@ TEST(RandomWorlds, ErrorsAreWithinWhatIsSaidOfThem) {
     live_m += report.position_m.rmse / kWorlds;
     odometry_m += report.odometry_m.rmse / kWorlds;
     tracking += report.health_over_time.of(Health::tracking).share / kWorlds;
-    worst_anees = std::max(worst_anees, report.tracking_consistency.anees);  // not a number where it never tracks
+    worst_anees = std::max(worst_anees, report.tracking_consistency.anees);  // NaN if the run never tracks
   }
   const double within = share_within(two_sigma_shares(worlds, SigmaMeasure::ellipse, false));
   const double within_tracking = share_within(two_sigma_shares(worlds, SigmaMeasure::ellipse, true));
@@ -71,12 +72,12 @@ TEST(RandomWorlds, ErrorsAreWithinWhatIsSaidOfThem) {
   EXPECT_LE(worst_anees, 8.0);
 }
 
-// Rooms with 23 to 30 landmarks of which most are seen at once, and odometry that turns by more than bearings are
-// apart: no landmark stands against chance by itself. Neighbours are confused there, and health is doubtful: as many
-// landmarks as there are get mapped, and 7 to 10 of 10 are where a true one is.
+// Rooms with 23 to 30 landmarks, most of them visible at once. Odometry turns more than neighbouring bearings are
+// apart, so no landmark is significant by itself. Neighbours are confused and health is doubtful there: the map has the
+// right number of landmarks, and 7 to 10 of 10 are at a true position.
 TEST(RandomWorlds, RoomsFullOfLandmarksAreMapped) {
   Configuration configuration;
-  configuration.estimator = "smoother";
+  configuration.estimator = EstimatorKind::smoother;
   for (const std::uint64_t seed : {1U, 5U, 31U, 33U}) {
     const RandomWorld world = random_world(seed);
     const Report report = score_without_names(run_through(world), configuration).report;

@@ -1,4 +1,4 @@
-// Recorded runs, which are not shipped: position errors that must be reached on them.
+// Position accuracy that must be reached on recorded runs that are not shipped.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -35,26 +35,26 @@ class Mrclam : public testing::TestWithParam<Limit> {
 };
 
 TEST_P(Mrclam, WithNames) {
-  // GIVEN a real robot that reads barcodes in a narrow view
+  // GIVEN a real robot that reads barcodes with a narrow field of view
   const auto run = load(GetParam().run);
   // WHEN its run is replayed with the default settings
   const Report report = replayed(run);
   print_row(std::string(GetParam().run) + ", names", report);
-  // THEN it knows where it was, and has mapped everything
+  // THEN the pose error is small, and all landmarks are mapped once
   EXPECT_LE(report.position_m.rmse, GetParam().rmse_m);
   EXPECT_EQ(report.named_map.named, 15u);
   EXPECT_EQ(report.named_map.duplicates, 0u);
 }
 
 TEST_P(Mrclam, WithoutNames) {
-  // GIVEN the same robot with the barcodes unread
+  // GIVEN the same robot without its barcode readings
   const auto run = load(GetParam().run);
   Rig rig = rig_of(run);
   rig.camera.identities = false;
-  // WHEN gating and joint compatibility have to tell landmarks apart
+  // WHEN the estimator has to associate bearings by gates and joint compatibility
   const Report report = replayed(run, rig);
   print_row(std::string(GetParam().run) + ", no names", report);
-  // THEN it is better than calibrated odometry
+  // THEN the estimate beats calibrated odometry
   EXPECT_LT(report.position_m.rmse, report.odometry_m.rmse);
 }
 
@@ -67,11 +67,11 @@ INSTANTIATE_TEST_SUITE_P(Runs, Mrclam,
 
 TEST(LabRuns, DefaultSettings) {
   AZIMUTH_REQUIRE_DATA("lab-runs");
-  // GIVEN twenty simulated runs of another author
+  // GIVEN twenty runs from another author's simulator
   const Runs runs =
       replay_seeds(20, [](std::uint64_t seed) { return replayed(load(fmt::format("lab-runs/lab-{:03}", seed - 1))); });
   runs.print("lab-runs");
-  // THEN all are tracked, and their covariances tell the truth
+  // THEN no run diverges, and the covariances are consistent
   EXPECT_LE(runs.mean_m(), 0.15);
   EXPECT_LE(runs.worst_m(), kDiverged_m);
   EXPECT_GE(runs.anees(), 1.5);

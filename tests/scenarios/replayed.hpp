@@ -1,5 +1,5 @@
 #pragma once
-// Runs through the stage that the daemon runs, judged as `azimuth replay` judges them.
+// Replays runs through the daemon's estimator stage and evaluates them as `azimuth replay` does.
 
 #include <functional>
 #include <string>
@@ -14,7 +14,7 @@
 
 namespace azimuth {
 
-/// The rig of the run; fails the test when its text is not valid.
+/// The rig of the run. The test fails if its text is invalid.
 Rig rig_of(const Run& run);
 
 Report replayed(const Run& run, const Rig& rig, const EkfSettings& settings = {});
@@ -22,30 +22,30 @@ inline Report replayed(const Run& run, const EkfSettings& settings = {}) {
   return replayed(run, rig_of(run), settings);
 }
 
-/// Likewise by the smoother.
+/// Replays the run with the smoother.
 Report replayed_in_hindsight(const Run& run, const Rig& rig, const HindsightSettings& settings = {});
 inline Report replayed_in_hindsight(const Run& run, const HindsightSettings& settings = {}) {
   return replayed_in_hindsight(run, rig_of(run), settings);
 }
 
-/// A pose farther off than this, or none at all, counts as divergence.
+/// A run diverges if its largest position error exceeds this or if it has no pose.
 inline constexpr double kDiverged_m = 1.5;
 
-/// What many runs of a kind have in common.
+/// Summary of several runs of one kind.
 struct Runs {
   std::vector<Report> reports;
 
   double mean_of(const std::function<double(const Report&)>& value) const;
   double mean_m() const;      ///< mean of the runs' mean position errors
   double worst_m() const;     ///< the largest position error of any run
-  double anees() const;       ///< mean of the runs'
-  double smoothed_m() const;  ///< mean of the runs' mean position errors as they are known at the end
+  double anees() const;       ///< mean of the runs' ANEES
+  double smoothed_m() const;  ///< mean of the runs' mean position errors in the final smoothed estimate
   int diverged() const;
-  /// One line: the numbers above, for the log of the test.
+  /// Prints one line with the numbers above to the test log.
   void print(const std::string& title) const;
 };
 
-/// One run for each seed from 1 on; `make` builds it.
+/// Replays one run for each seed from 1 on, built by `make`.
 Runs replay_seeds(int seeds, const std::function<Report(std::uint64_t seed)>& make);
 
 }  // namespace azimuth

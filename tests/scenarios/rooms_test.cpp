@@ -1,5 +1,5 @@
-// Coloured landmarks in a small room first, and then in a hall: how far a camera sees is learnt from what it has seen,
-// and must be learnt anew where there is more to be seen.
+// Coloured landmarks, first in a small room, then in a hall. The estimator learns the camera's range from its bearings,
+// and must learn it anew where the camera sees farther.
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@ bool contains(const Rectangle& room, const Eigen::Vector2d& p) {
   return (p.array() >= room.low_m.array()).all() && (p.array() <= room.high_m.array()).all();
 }
 
-/// Whether one is seen from the other: from room to room through the door alone.
+/// Whether the line of sight is free: between the rooms only through the door.
 bool is_open(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   constexpr double kDoor_m = 2.5, kHalfWidth_m = 0.45;
   if (contains(kSmallRoom, a) == contains(kSmallRoom, b)) return true;
@@ -33,7 +33,7 @@ bool is_open(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return std::abs(y_m - kDoor_m) < kHalfWidth_m;
 }
 
-/// From the room into the hall, and round there 7 m and more from what stands along its walls.
+/// A path from the room into the hall and round it, at least 7 m from the landmarks along its walls.
 Scenario from_room_into_hall(std::uint64_t seed) {
   Scenario scenario = hall(seed);
   scenario.name = "rooms";
@@ -50,7 +50,7 @@ Scenario from_room_into_hall(std::uint64_t seed) {
   return scenario;
 }
 
-/// What is left is known by its colour alone.
+/// The run without occluded bearings. Colours replace the names of the remaining bearings.
 Run seen_by_colour(std::uint64_t seed) {
   Run run = simulated_run(from_room_into_hall(seed));
   std::vector<StampedPose> truth;

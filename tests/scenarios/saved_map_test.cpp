@@ -1,4 +1,4 @@
-// A robot that starts from the map of an earlier drive among features known by their looks.
+// A robot that starts from a map of an earlier drive, among features identified by descriptors.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 class SavedFeatureMap : public testing::TestWithParam<MapMode> {};
 
 TEST_P(SavedFeatureMap, TellsARobotWhereItIs) {
-  // GIVEN the map of a room full of features, and a robot that does not know where in the room it is
+  // GIVEN the map of a room full of features, and a robot with an unknown pose in the room
   const FeatureWorld world = feature_world(1);
   Rig rig = rig_of(world.run);
   rig.front_end = FrontEnd::sift;
@@ -23,7 +23,7 @@ TEST_P(SavedFeatureMap, TellsARobotWhereItIs) {
   const ReplayResult first = replay(world.run, rig, make_ekf_estimator(rig, {}), StageSettings{});
   ASSERT_TRUE(first.map);
   EXPECT_GT(first.map->views.size(), first.map->landmarks.size());
-  azimuth::Run later = world.run;  // from the middle on
+  azimuth::Run later = world.run;  // the second half of the drive
   const Stamp middle = later.odometry[later.odometry.size() / 2].stamp;
   std::erase_if(later.odometry, [&](const OdometryReading& reading) { return reading.stamp < middle; });
   std::erase_if(later.bearings, [&](const BearingSet& set) { return set.stamp < middle; });
@@ -31,7 +31,7 @@ TEST_P(SavedFeatureMap, TellsARobotWhereItIs) {
   // WHEN it starts from the map in the middle of the drive
   const MapStart start{.map = &*first.map, .mode = GetParam()};
   const ReplayResult second = replay(later, rig, make_ekf_estimator(rig, {}, start), StageSettings{});
-  // THEN it is found with the first good images, and is where the first drive was there
+  // THEN it relocalises with the first good images, at the pose of the first drive
   const auto found = std::ranges::find_if(second.estimates, [](const EstimateRecord& estimate) {
     return estimate.covariance.topLeftCorner<2, 2>().trace() < 1.0;
   });

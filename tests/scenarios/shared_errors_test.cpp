@@ -1,5 +1,5 @@
-// Errors that are shared do not average out: drives with changing light, people, a camera that was knocked and an
-// odometer that counts too much or too little must still know how far they can be trusted. Many of a kind, one table.
+// Systematic errors do not average out: with changing light, people, a displaced camera or a wrong odometer scale the
+// covariances must still be consistent. The tests print one table over many drives of each kind.
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -25,18 +25,19 @@ namespace {
 
 using test::RoomTrouble;
 
-/// What a drive meets.
+/// The disturbances of a drive.
 struct Trouble {
   std::string name;
   RoomTrouble room = {};
   double knocked_u_px = 0.0, knocked_v_px = 0.0;
-  std::vector<double> odometer_counts = {1.0};  ///< drives with the same images, each by an odometer of its own
+  /// Scales of the odometry; the drive repeats with each of them and the same images.
+  std::vector<double> odometer_counts = {1.0};
 };
 
 struct Row {
   std::string name;
   Report report;
-  std::size_t phantoms = 0;  ///< landmarks mapped where none is, and those mapped twice
+  std::size_t phantoms = 0;  ///< landmarks mapped where there is none, and landmarks mapped twice
 };
 
 class Table {
@@ -87,7 +88,7 @@ class Table {
 
 class SharedErrors : public testing::Test {
  protected:
-  /// The run with what is found in its images in their place.
+  /// The run with the bearings that the front end detects in its images.
   static azimuth::Run looked_at(azimuth::Run run, const Rig& rig, const Trouble& trouble) {
     Rig knocked = rig;
     knocked.camera.image.centre_px->at(0) += trouble.knocked_u_px;
@@ -156,13 +157,13 @@ TEST_F(SharedErrors, OfColouredLandmarksInAnOfficeInUse) {
                .knocked_v_px = 7.0,
                .odometer_counts = kScales}});
   for (const Row& row : table.rows()) {
-    EXPECT_LE(row.report.consistency.anees, 7.5) << row.name;  // 25 of the first beginning alone
+    EXPECT_LE(row.report.consistency.anees, 7.5) << row.name;
     EXPECT_LE(row.report.position_m.rmse, 0.13) << row.name;
     EXPECT_LE(10 * row.phantoms, row.report.map.landmarks) << row.name;
     EXPECT_EQ(row.report.map.matched, row.report.map.true_landmarks) << row.name;
   }
   EXPECT_LE(table.median_anees(), 3.2);
-  EXPECT_LE(table.phantom_share(), 0.02);  // 0.04 with those on probation
+  EXPECT_LE(table.phantom_share(), 0.02);
 }
 
 TEST_F(SharedErrors, OfLampsInAHallInUse) {
@@ -183,15 +184,15 @@ TEST_F(SharedErrors, OfLampsInAHallInUse) {
         .knocked_v_px = 7.0,
         .odometer_counts = kScales}});
   for (const Row& row : table.rows()) {
-    EXPECT_LE(row.report.consistency.anees, 6.7) << row.name;  // 4.5; 55 of the first beginning alone
+    EXPECT_LE(row.report.consistency.anees, 6.7) << row.name;
     EXPECT_LE(row.report.position_m.rmse, 0.28) << row.name;
     EXPECT_EQ(row.phantoms, 0u) << row.name;
   }
   EXPECT_LE(table.median_anees(), 3.0);
 }
 
-/// One odometer is luck: its noise moves the error of that hall from 0.016 to 0.09 m. The best that can be made of the
-/// images until each one, by maximum likelihood with all associations known, is off by 0.05 m.
+/// The result for a single odometer depends on chance: its noise moves the error in this hall from 0.016 to 0.09 m. The
+/// online maximum-likelihood solution with all associations known has an error of 0.05 m.
 TEST_F(SharedErrors, OfLampsBelowManyOdometers) {
   AZIMUTH_REQUIRE_DATA("hall-a");
   const azimuth::Run recorded = *load_run(test::data_folder() / "hall-a");
@@ -205,12 +206,13 @@ TEST_F(SharedErrors, OfLampsBelowManyOdometers) {
             test::with_drawn_odometry(seen, rig.odometry, seed), rig, table);
     table.print_means();
     for (const Row& row : table.rows()) EXPECT_LE(row.report.consistency.anees, 5.0) << row.name;
-    EXPECT_LE(table.mean_rmse_m(), 0.06) << trouble.name;  // knocked: 0.17 of one beginning alone
-    EXPECT_GE(table.mean_anees(), 0.1) << trouble.name;    // this rig is charged for errors that it has not
+    EXPECT_LE(table.mean_rmse_m(), 0.06) << trouble.name;
+    // Low because the stated covariance includes rig errors that this rig does not have.
+    EXPECT_GE(table.mean_anees(), 0.1) << trouble.name;
   }
 }
 
-/// Stops a metre apart, 17 landmarks of four colours in each image, bearings a hundred times better than odometry.
+/// Stops a metre apart, 17 landmarks of four colours in each image, bearings a hundred times as precise as odometry.
 TEST_F(SharedErrors, OfRenderedLabs) {
   const test::TemporaryFolder folder;
   Table table;
@@ -222,7 +224,7 @@ TEST_F(SharedErrors, OfRenderedLabs) {
   }
   table.print_means();
   for (const Row& row : table.rows()) {
-    EXPECT_LE(row.report.consistency.anees, 12.0) << row.name;  // 165 of one decision
+    EXPECT_LE(row.report.consistency.anees, 12.0) << row.name;
     EXPECT_LE(10 * row.phantoms, row.report.map.landmarks) << row.name;
   }
   EXPECT_LE(table.mean_anees(), 3.5);

@@ -1,5 +1,5 @@
-// Coloured landmarks in images of a third of the usual width, as a slow bus carries them: few are seen at a time, and
-// none from afar. They come later than their stamps say, as those of a camera on USB do.
+// Coloured landmarks in images of a third of the usual width, as over a slow bus. Few landmarks are visible at a time,
+// and none from afar. The images are older than their stamps, as for a USB camera.
 
 #include <algorithm>
 #include <chrono>
@@ -23,16 +23,16 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr double kDriven_s = 120.0;  // a lap and a half
+constexpr double kDriven_s = 120.0;  // one and a half laps
 constexpr Duration kLate = 60ms;
 
-/// AZIMUTH_SMALL_IMAGES, else a few.
+/// Value of AZIMUTH_SMALL_IMAGES, else 6.
 int drives_asked() {
   const char* const asked = std::getenv("AZIMUTH_SMALL_IMAGES");
   return asked != nullptr ? std::max(1, std::atoi(asked)) : 6;
 }
 
-/// What is seen in the images of a drive, with no landmark named.
+/// The run with the bearings from the images of a drive, without names.
 azimuth::Run seen_in_small_images(std::uint64_t seed) {
   Scenario scenario = lab(seed);
   scenario.sampling.bearing_period_s = 0.25;
@@ -44,7 +44,7 @@ azimuth::Run later(azimuth::Run run, Duration by) {
   return run;
 }
 
-/// A run without what came while a cable was out: the odometer's or the camera's, as chance has it.
+/// A run without the samples that are lost while a cable is unplugged, at random the odometer's or the camera's.
 struct CablesPulled {
   azimuth::Run run;
   std::vector<Stamp> odometer_back;
@@ -69,7 +69,7 @@ CablesPulled with_cables_pulled(azimuth::Run run, std::uint64_t seed) {
   return pulled;
 }
 
-/// After each cable that was plugged in again, until a step says that it tracks; nothing: none did.
+/// Time from each return of the odometer to the first step with health `tracking`; no value if none tracks.
 std::vector<std::optional<double>> until_tracking_s(const CablesPulled& pulled, const ReplayResult& result) {
   std::vector<std::optional<double>> seconds;
   for (const Stamp back : pulled.odometer_back) {
@@ -81,7 +81,7 @@ std::vector<std::optional<double>> until_tracking_s(const CablesPulled& pulled, 
   return seconds;
 }
 
-/// One landmark that does not come into sight where it should, a few times in a row, is no robot carried off.
+/// A single landmark that is not detected a few times in a row does not mean that the robot was carried off.
 TEST(SmallImages, AreTrackedAgainWithinASecondOfAPulledCable) {
   const int drives = drives_asked();
   std::size_t pulls = 0;
@@ -100,10 +100,10 @@ TEST(SmallImages, AreTrackedAgainWithinASecondOfAPulledCable) {
   }
   fmt::print("{} cables pulled, tracking {:.2f} s after the worst was back\n", pulls, worst_s);
   EXPECT_GE(pulls, 15 * as_size(drives));
-  EXPECT_LE(worst_s, 1.0);  // 6.4 while one landmark's misses were taken for as many landmarks'
+  EXPECT_LE(worst_s, 1.0);
 }
 
-/// A robot that is where it is said to be is not called lost for what it no longer sees.
+/// A robot with a correct pose is not lost because it sees fewer landmarks.
 TEST(SmallImages, OfTheLabAreTrackedHoweverFewLandmarksTheyShow) {
   const int drives = drives_asked();
   double tracking = 0.0, late_tracking = 0.0, late_anees = 0.0;
@@ -119,7 +119,7 @@ TEST(SmallImages, OfTheLabAreTrackedHoweverFewLandmarksTheyShow) {
           report->tracking_consistency.anees, report->map.matched, report->map.true_landmarks);
     EXPECT_EQ(on_time.health_over_time.times_lost, 0u);
     EXPECT_EQ(late.health_over_time.times_lost, 0u);
-    EXPECT_LE(on_time.tracking_consistency.anees, 6.0);  // 385 when taking what is out of sight for what is seen
+    EXPECT_LE(on_time.tracking_consistency.anees, 6.0);
     tracking += on_time.health_over_time.of(Health::tracking).share / drives;
     EXPECT_EQ(late.health, to_string(Health::degraded)) << "images and odometry are not of the same time";
     late_anees += late.tracking_consistency.anees / drives;
@@ -127,8 +127,8 @@ TEST(SmallImages, OfTheLabAreTrackedHoweverFewLandmarksTheyShow) {
   }
   fmt::print("tracking {:.1f} %, late {:.1f} % (ANEES {:.1f})\n", 100.0 * tracking, 100.0 * late_tracking, late_anees);
   EXPECT_GE(tracking, 0.97);
-  EXPECT_LE(late_tracking, 0.5);  // until the lag is certain
-  EXPECT_LE(late_anees, 6.0);     // 8 to 24 while it was not said
+  EXPECT_LE(late_tracking, 0.5);  // because the lag is uncertain at first
+  EXPECT_LE(late_anees, 6.0);
 }
 
 }  // namespace

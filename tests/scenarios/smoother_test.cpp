@@ -1,4 +1,4 @@
-// The smoother on recorded runs with known names: what must be reached, live and in hindsight.
+// Accuracy of the smoother, live and in hindsight, on recorded runs with known names.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -84,7 +84,7 @@ TEST(SmootherOnMrclam, EndsWhereTheBatchSolutionDoes) {
   const Rig rig = rig_of(run);
   SmootherSettings settings;
   const KnownNamesSettings names = settings_for(rig, settings);
-  // GIVEN what was found live, four steps an image
+  // GIVEN the live result, with four solver steps per image
   std::optional<Smoother> last;
   std::size_t images = 0;
   smoothed_run(run, rig, names, [&](const KnownNames& solved) {
@@ -93,7 +93,7 @@ TEST(SmootherOnMrclam, EndsWhereTheBatchSolutionDoes) {
   ASSERT_TRUE(last);
   BatchProblem batch(last->graph(), settings);
   ASSERT_GT(batch.solve(), 0);
-  // THEN the energy is that of everything solved at once, to what the settings allow
+  // THEN its energy equals that of the batch solution, within the convergence settings
   EXPECT_NEAR(last->energy(), batch.energy(), 3.0 * settings.converged_below);
   EXPECT_LT(largest_difference(last->graph().values(), batch.values()), 0.01);
 }

@@ -1,4 +1,4 @@
-// A mirror that leans, whose rig says so or does not: coloured landmarks of the lab.
+// A tilted mirror and coloured landmarks in the lab. The rig states the tilt or declares it unknown.
 
 #include <cmath>
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ RenderSettings leaning(double tilt_deg, std::uint64_t seed) {
 }
 
 struct Driven {
-  Runs known, unknown;  ///< by a rig that has the tilt, and by one that says that nobody measured it
+  Runs known, unknown;  ///< with a rig that states the tilt, and with one that declares it unmeasured
 };
 
 Driven driven(double tilt_deg) {
@@ -46,7 +46,7 @@ double rmse_m(const Runs& runs) {
   return runs.mean_of([](const Report& report) { return report.position_m.rmse; });
 }
 
-/// That nothing is known of the tilt costs next to nothing where there is none.
+/// For a level mirror, a rig without knowledge of the tilt must cost hardly any accuracy.
 TEST(TiltedMirrors, CostNothingIfTheyAreLevel) {
   Runs exact, open;
   for (std::uint64_t seed = 1; seed <= 2 * kSeeds; ++seed) {

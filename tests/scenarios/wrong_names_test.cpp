@@ -11,7 +11,7 @@ namespace {
 constexpr int kWrongNamesSeeds = 20;
 
 TEST(WrongNames, AStreakOfThemIsRecoveredFrom) {
-  // GIVEN a sensor that for ten seconds of the second lap calls every landmark by its neighbour's name
+  // GIVEN a sensor that reports each landmark under its neighbour's name for ten seconds of the second lap
   const auto confused = [](std::uint64_t seed) {
     auto run = simulated_run(lab(seed, 4));
     const auto landmarks = static_cast<Identity>(run.landmarks.size());
@@ -20,10 +20,10 @@ TEST(WrongNames, AStreakOfThemIsRecoveredFrom) {
         for (Bearing& bearing : set.bearings) bearing.identity = (bearing.identity + 1) % landmarks;
     return run;
   };
-  // WHEN names are right again
+  // WHEN the names are correct again
   const Runs runs = replay_seeds(kWrongNamesSeeds, [&](std::uint64_t seed) { return replayed(confused(seed)); });
   runs.print("lab, ten seconds of wrong names");
-  // THEN pose and map come back
+  // THEN pose and map recover
   int recovered = 0;
   for (const Report& report : runs.reports)
     recovered += report.position_m.final < 0.2 && report.health == "tracking" && report.named_map.duplicates == 0 &&
@@ -31,7 +31,7 @@ TEST(WrongNames, AStreakOfThemIsRecoveredFrom) {
                      ? 1
                      : 0;
   fmt::print("recovered: {} of {}\n", recovered, kWrongNamesSeeds);
-  EXPECT_GE(recovered, kWrongNamesSeeds * 3 / 5);  // the rest rebuilt part of the map under wrong names
+  EXPECT_GE(recovered, kWrongNamesSeeds * 3 / 5);  // in the other runs the wrong names rebuild part of the map
 }
 
 TEST(WrongNames, AFewNowAndThenDoNoHarm) {

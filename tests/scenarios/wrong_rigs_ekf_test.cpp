@@ -1,4 +1,4 @@
-// Robots that are not as their rig says, by the EKF.
+// The EKF with robots that differ from their rig.
 
 #include <algorithm>
 #include <cmath>
@@ -20,9 +20,9 @@ namespace {
 constexpr int kRobots = 20;
 
 struct FilterTogether {
-  double rmse_m = 0.0, anees = 0.0, worst = 0.0, tracking = 0.0;  ///< ANEES while tracking
+  double rmse_m = 0.0, anees = 0.0, worst = 0.0, tracking = 0.0;  ///< `anees` covers the steps with health `tracking`
   int judged = 0, doubted = 0;
-  RigFinding last;  ///< of the last robot
+  RigFinding last;  ///< finding for the last robot
 };
 
 using RobotOf = std::function<EncoderRobot(std::uint64_t seed)>;
@@ -38,7 +38,7 @@ double share_tracking(const std::vector<StepHealth>& healths) {
 FilterTogether filtered(const RobotOf& robot_of, bool considers) {
   FilterTogether all;
   Configuration configuration;
-  configuration.estimator = "ekf";
+  configuration.estimator = EstimatorKind::ekf;
   configuration.ekf.update.consider_scales = considers;
   for (std::uint64_t seed = 1; seed <= kRobots; ++seed) {
     EncoderRobot robot = robot_of(seed);
@@ -62,7 +62,7 @@ FilterTogether filtered(const RobotOf& robot_of, bool considers) {
 }
 
 struct BeforeAndNow {
-  FilterTogether exact, considered;  ///< the rig is taken to be
+  FilterTogether exact, considered;  ///< results with a rig taken for exact, and with its uncertainty considered
 };
 
 BeforeAndNow by_ekf(const RobotOf& robot_of, const std::string& title) {
@@ -76,7 +76,7 @@ BeforeAndNow by_ekf(const RobotOf& robot_of, const std::string& title) {
   return both;
 }
 
-/// Off by what the rig's own standard deviations say, times `sigmas`.
+/// A robot whose errors are drawn from the rig's standard deviations, times `sigmas`.
 EncoderRobot drawn(std::uint64_t seed, double sigmas) {
   RandomNumbers<Xoshiro> numbers(Xoshiro(1000 + seed));
   const Rig silent;
@@ -148,7 +148,7 @@ TEST(WrongRigsByEkf, ADriftIsCovered) {
   }
 }
 
-// Of a lag of 0.2 s most bearings in turns are refused by the gates, and tell nothing.
+// With a lag of 0.2 s the gates reject most bearings in turns, so they carry no information.
 TEST(WrongRigsByEkf, LateImagesAreCovered) {
   for (const double lag_s : {0.02, 0.05, 0.1, 0.2}) {
     const auto both = by_ekf(always({.image_lag_s = lag_s}), fmt::format("images {} s late", lag_s));

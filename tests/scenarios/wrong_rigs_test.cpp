@@ -1,4 +1,5 @@
-// Robots that are not as their rig says, and not as the estimators think robots are: the smoother goes by what is seen.
+// Robots that differ from their rig and violate the estimators' assumptions: the smoother must trust its observations
+// more than the rig.
 
 #include <array>
 #include <cmath>
@@ -77,7 +78,7 @@ TEST(WrongRigs, BearingsAreAsNoisyAsTheyAre) {
   }
 }
 
-// Slips last for a second or two, which is not what a rig's lambdas are of: it is the covariances that count.
+// Slips last a second or two and do not fit the noise model of the rig's lambdas; the test checks the covariances.
 TEST(WrongRigs, OdometryThatIsNoisierIsCovered) {
   for (const double noise : {0.3, 0.5, 2.0, 4.0}) {
     const Together all = of_twenty({.odometry_noise = noise}, fmt::format("odometry {} times as noisy", noise));

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""scripts/demo --view with the programs of this build, in a tree of its own where there is nothing to build: it plays a run, ends by
-serving it at the address that it says, and stops when told to.
+"""Runs scripts/demo --view with the programs of this build, in a tree where nothing has to be built. The script must
+play a run, then serve it at the printed address, and stop on a signal.
 
 usage: demo_view_test.py SOURCE_TREE BUILD_TREE
-In a network namespace whose loopback carries multicast: the address is the usual one. Exit code 0: so it is, 1: not, 77: no lcm-logger.
+Needs a network namespace whose loopback interface carries multicast. Exit code 0: good, 1: not, 77: lcm-logger is missing.
 """
 
 import json
@@ -24,7 +24,7 @@ PATIENCE_S = 120.0
 
 
 def place(folder):
-    """The tree as the script knows it, in which nothing is installed or built."""
+    """Makes a tree for the script in which nothing has to be installed or built; returns the environment."""
     shutil.copytree(TREE / "scripts", folder / "scripts")
     for name in ("runs", "config"):
         (folder / name).symlink_to(TREE / name)

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""scripts/film before a stand-in for azimuth view: the film has the pictures that were asked for, in which the robot moves, and one that
-becomes too large is refused and leaves nothing behind.
+"""Runs scripts/film with a stand-in for azimuth view. The film must have the requested number of pictures, in which the
+robot moves. A film that becomes too large must be refused without leaving a file.
 
-usage: film_test.py SOURCE_TREE      exit code 0: so it is, 1: not, 77: there is no browser here
+usage: film_test.py SOURCE_TREE      exit code 0: good, 1: not, 77: the browser is missing
 """
 
 import struct

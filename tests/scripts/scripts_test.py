@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Checks one thing about the scripts, as somebody meets them who has just got the tree. They run in a copy of it, among
-stand-ins for whatever would change the machine or take long: these only note that they were called.
+"""Runs one check of the scripts in a copy of a fresh tree. Stand-ins replace the programs that would change the machine
+or take long; they only record their calls.
 
-usage: scripts_test.py CASE      exit code 0: good, 1: not, 77: the system does not allow it to be tried
+usage: scripts_test.py CASE      exit code 0: good, 1: not, 77: the system does not allow the check
 """
 
 import json
@@ -25,7 +25,7 @@ def fail(message):
 
 
 class Place:
-    """The scripts, and the only programs they can find."""
+    """A folder with the scripts and the only programs that they can find."""
 
     def __init__(self, folder):
         self.folder = Path(folder)
@@ -73,7 +73,7 @@ def help_comes_first(place):
 
 
 def unknown_arguments_are_refused(place):
-    # As far as scripts/test reads it.
+    # The part of the help that scripts/test reads.
     place.stand_in("ctest", "echo '  -R <regex>, --tests-regex <regex> = Run tests'; echo '  -j <jobs>  = Jobs'", noted=False)
     wrong = [(script, "--nonsense") for script in place.scripts()]
     wrong += [(place.folder / "scripts" / name, "nonsense") for name in ("docs", "fuzz", "setup", "package", "refresh-golden", "results", "test", "test-builds", "test-sanitizers")]
@@ -106,7 +106,7 @@ def another_architecture_wants_a_compiler_and_no_libraries(place):
         missing = place.run(script, "--arch", "arm64").stderr
         if " g++-aarch64-linux-gnu " not in missing or " libpng-dev " in missing:
             fail(f"{name} --arch arm64: {missing}")
-        missing = place.run(script, "--arch", "amd64").stderr  # this one
+        missing = place.run(script, "--arch", "amd64").stderr  # the architecture of this machine
         if "aarch64" in missing or " libpng-dev " not in missing:
             fail(f"{name} --arch amd64: {missing}")
         for wrong in (["mips"], []):
@@ -131,7 +131,7 @@ def a_guest_wants_the_machine_it_is(place):
 
 
 def way_of(place, *, unshare, comes_back):
-    """What scripts/demo says of LCM before it builds."""
+    """The output of scripts/demo about LCM before it builds."""
     place.stand_in("dpkg-query", "echo installed")
     place.stand_in("unshare", f"exit {0 if unshare else 1}")
     place.stand_in("python3", f"exit {0 if comes_back else 1}")
@@ -164,7 +164,7 @@ def multicast_is_tried(place):
 
 FAST = ["Ekf.Begins", "Lamps.Shine"]
 LONG = [f"Runs.Number{number}" for number in range(40)]
-SECONDS = "# head\n" + "".join(f"{3.5 + number * number % 37} {name}\n" for number, name in enumerate(LONG[5:]))  # five are new
+SECONDS = "# head\n" + "".join(f"{3.5 + number * number % 37} {name}\n" for number, name in enumerate(LONG[5:]))  # five tests have no time
 
 CTEST = """case "$*" in
   *--help*) echo '  -R <regex>, --tests-regex <regex> = Run tests' ;;
@@ -177,7 +177,7 @@ esac"""
 
 
 def tests_that_take_long(place):
-    """A ctest that has some, of which most have been timed."""
+    """Makes a ctest with long tests, most of which have times, and returns the names of all tests."""
     listing = [{"name": name, "properties": [{"name": "LABELS", "value": [label]}]}
                for names, label in ((FAST, "scripts"), (LONG[::2], "statistics"), (LONG[1::2], "nightly")) for name in names]
     listing.insert(1, {"name": "NoLabels.AreFine"})
@@ -190,7 +190,7 @@ def tests_that_take_long(place):
 
 
 def share_of(place, *turn):
-    """Its number, and what it is of."""
+    """Returns the number of the share and the numbers of its tests."""
     said = place.run(place.folder / "scripts/lib/test_shares.py", "share", "build", *turn)
     if said.returncode:
         fail(said.stderr)
@@ -207,7 +207,7 @@ def what_takes_long_is_dealt_into_ten_shares(place):
     sums = [sum(seconds.get(name, 0.0) for name in share) for share in shares]
     if max(sums) - min(sums) > max(seconds.values()) / 2:
         fail(f"not alike: {sums}")
-    # One test more moves no other.
+    # A new test does not move another one.
     listing = json.loads((place.folder / "listing.json").read_text())
     listing["tests"].append({"name": "Runs.AreMore", "properties": [{"name": "LABELS", "value": ["statistics"]}]})
     (place.folder / "listing.json").write_text(json.dumps(listing))
@@ -239,7 +239,7 @@ def what_is_left_out_is_told(place):
     tests_that_take_long(place)
 
     def chosen(*arguments):
-        """The arguments that ctest runs with after the usual ones, and what was said at the end."""
+        """The arguments of ctest after the usual ones, and the last two lines of the output."""
         said = place.run(place.folder / "scripts/test", *arguments)
         if said.returncode:
             fail(f"{arguments}: {said.stdout}{said.stderr}")

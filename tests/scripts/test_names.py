@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Checks what ctest calls the tests, and what GoogleTest calls their parameters when one fails: text that a person can
-read and type, and that is the same in every run.
+"""Checks the names of the tests in ctest and the names of their parameters in GoogleTest: they must be readable, easy
+to type and the same in every run.
 
-usage: test_names.py CTEST BUILD_FOLDER      exit code 0: all are good, 1: not, each is named
+usage: test_names.py CTEST BUILD_FOLDER      exit code 0: all are good, 1: not, with the bad ones named
 """
 
 import json
@@ -11,7 +11,7 @@ import subprocess
 import sys
 
 GOOD_NAME = re.compile(r"[A-Za-z0-9_.,/<>:-]+")
-# What GoogleTest has for a value that it cannot print, and for a pointer, which is another in each run.
+# The text of GoogleTest for a value that it cannot print, and for a pointer, which differs between runs.
 RAW_VALUE = re.compile(r"-byte object <|0x[0-9a-f]{6,}")
 
 
@@ -20,7 +20,7 @@ def bad_names(names):
 
 
 def bad_values(listing):
-    """Of `PROGRAM --gtest_list_tests`: the lines with a value that is bytes to a reader."""
+    """The lines of `PROGRAM --gtest_list_tests` with an unreadable value."""
     bad, suite = [], ""
     for line in listing.splitlines():
         if not line.startswith(" "):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""test_names.py finds what it is to find."""
+"""Tests test_names.py."""
 
 import unittest
 

@@ -1,4 +1,4 @@
-// Lists of tables, [[colour.class]] before all.
+// Lists of tables, mainly [[colour.class]].
 
 #include <gmock/gmock.h>
 
@@ -24,16 +24,14 @@ ColourSettings colour_of(const std::string& text) {
 }
 
 const std::string kTwo =
-    "[colour]\narea_min_px2 = 12.5\n"
     "[[colour.class]]\nname = \"orange\"\nhue_from_deg = 15\nhue_to_deg = 35.25\n"
     "[[colour.class]]\nname = \"pink\"\nsaturation_max = 0.6\nvalue_min = 0.5\n";
 
 TEST(ColourClasses, OfAFileReplaceThoseThereWere) {
   const ColourSettings colour = colour_of(kTwo);
-  EXPECT_EQ(colour.area_min_px2, 12.5);
   EXPECT_THAT(colour.classes, ElementsAre(ColourClass{.name = "orange", .hue_from_deg = 15, .hue_to_deg = 35.25},
                                           ColourClass{.name = "pink", .saturation_max = 0.6, .value_min = 0.5}));
-  EXPECT_EQ(colour_of("[colour]\narea_min_px2 = 12.5\n").classes, ColourSettings{}.classes);
+  EXPECT_EQ(colour_of("").classes, ColourSettings{}.classes);
 }
 
 TEST(ColourClasses, ReadBackAsTheyAreWritten) {
@@ -53,7 +51,7 @@ TEST(ColourClasses, AreReportedWithTheirPlaces) {
   EXPECT_THAT(violations_of("[[colour.class]]\nname = \"a\"\nname = \"b\"\n"), HasSubstr("a.toml:3:"));
   EXPECT_THAT(violations_of("[colour]\nhue_from_deg = 3\n"), HasSubstr("it belongs in [[colour.class]]"));
   EXPECT_THAT(violations_of("[[colour.clas]]\nname = \"a\"\n"), HasSubstr("a.toml:1:"));
-  EXPECT_THAT(violations_of("[[ekf]]\ngate_chi2 = 3\n"), HasSubstr("'ekf' must be a table, not an array"));
+  EXPECT_THAT(violations_of("[[ekf]]\nthinning_s = 3\n"), HasSubstr("'ekf' must be a table, not an array"));
 }
 
 TEST(ColourClasses, MustMakeSense) {
@@ -77,13 +75,12 @@ TEST(ColourClasses, AreListsOfTablesAndNothingElse) {
   EXPECT_THAT(violations_of("[colour]\nclass = [1, {name = \"a\"}]\n"), HasSubstr(wants + "an array"));
   EXPECT_THAT(violations_of("[colour]\nclass = 3\n"), HasSubstr(wants + "a whole number"));
   EXPECT_THAT(violations_of("", {"colour.class.name=a"}), HasSubstr("is a list, which only a file can give"));
-  EXPECT_THAT(violations_of("", {"colour.area_min_px2=7"}), IsEmpty());
 }
 
 TEST(ColourClasses, DefaultsLieInTheirRanges) {
   ColourSettings colour;
-  const std::vector<Section> sections = colour_sections(colour);
-  const Elements& classes = *sections[1].elements;
+  const Section section = colour_section(colour);
+  const Elements& classes = *section.elements;
   ASSERT_EQ(classes.count(), 4U);
   for (std::size_t i = 0; i < classes.count(); ++i) {
     for (const Key& key : classes.keys(i)) EXPECT_TRUE(key.in_range()) << key.name;

@@ -6,7 +6,7 @@
 namespace azimuth {
 namespace {
 
-/// `azimuth` with a command `map`, which has commands, and `replay`, which takes a word.
+/// `azimuth` with a command `map`, which has subcommands, and a command `replay`, which takes an argument.
 struct Program {
   CLI::App app{"a program", "azimuth"};
   std::string run;
@@ -23,7 +23,7 @@ struct Program {
     map->add_subcommand("export");
   }
 
-  /// What is unexpected, after the program's own name.
+  /// The error output for the words after the program's name.
   std::string said_of(std::vector<const char*> words) {
     words.insert(words.begin(), "azimuth");
     ::testing::internal::CaptureStderr();

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// `azimuth` with a command that takes options of every sort.
+/// `azimuth` with a command that takes options of all types.
 struct Described {
   CLI::App app{"a program", "azimuth"};
   std::filesystem::path report;
@@ -33,7 +33,7 @@ struct Described {
     replay->add_option("--secret", front_end)->group("");
   }
 
-  /// As somebody gets it who asks for it.
+  /// The description that a caller of `azimuth` receives.
   Json told() {
     const char* const words[] = {"azimuth", kDescribe};
     ::testing::internal::CaptureStdout();

@@ -4,10 +4,10 @@
 
 namespace azimuth {
 
-/// Stands for a member of any type in the count below.
+/// Converts to a member of any type in the count below.
 struct AnyMember {
   template <class T>
-  operator T() const;  // never defined: only asked about
+  operator T() const;  // never defined; only used in requires-expressions
 };
 
 template <class T, std::size_t... I>
@@ -15,8 +15,8 @@ constexpr bool takes_members(std::index_sequence<I...>) {
   return requires { T{(static_cast<void>(I), AnyMember{})...}; };
 }
 
-/// How many members an aggregate has: the most initialisers it takes. A settings struct that gains a member fails the
-/// test that compares this with its table.
+/// Number of members of an aggregate: the largest number of initialisers that it accepts. Tests compare it with the
+/// tables of settings, so that a new member without an entry fails a test.
 template <class T, std::size_t N = 0>
 constexpr std::size_t member_count() {
   if constexpr (takes_members<T>(std::make_index_sequence<N + 1>())) {
@@ -26,7 +26,7 @@ constexpr std::size_t member_count() {
   }
 }
 
-/// The same with the members of these groups, each a member of T, in their place.
+/// The same number with the members of `Groups` counted instead of the groups, each of which is a member of T.
 template <class T, class... Groups>
 constexpr std::size_t member_count_with_groups() {
   return member_count<T>() - sizeof...(Groups) + (member_count<Groups>() + ...);

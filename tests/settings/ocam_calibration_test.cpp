@@ -34,7 +34,7 @@ TEST(OcamCalibration, MakesACamera) {
   EXPECT_NEAR(camera->direction({319.25, 339.5})->elevation_rad, kPi / 2 - std::atan2(x, 300 - 1e-3 * x * x), 1e-9);
 }
 
-/// Where OCamCalib has the pixel that sees along (x, y, f(r)), x down the image and y to the right.
+/// The pixel of the direction (x, y, f(r)) in OCamCalib's convention: x points down in the image, y to the right.
 Pixel ocam_pixel(const Eigen::Vector2d& p, double c, double d, double e) {
   return {e * p.x() + p.y() + 319.25, c * p.x() + d * p.y() + 239.5};
 }
@@ -49,7 +49,7 @@ std::ostream& operator<<(std::ostream& out, const Affine& affine) {
 
 class OcamAffine : public testing::TestWithParam<Affine> {};
 
-/// All directions but for one turn about the axis, to within what is said to be left out.
+/// Directions must agree up to a rotation about the axis, within the stated error of the neglected terms.
 TEST_P(OcamAffine, IsATurnAndLittleElse) {
   const auto& [c, d, e, most_px] = GetParam();
   const auto read = read_ocam_calibration(calibration("5 -300 0 1e-3 0 0", fmt::format("{} {} {}", c, d, e)), "file");
@@ -88,7 +88,8 @@ TEST(OcamCalibration, RefusesWhatItCannotHold) {
   EXPECT_EQ(read_ocam_calibration("#a\n1 2\n3 x\n", "file").error().front().line, 3);
 }
 
-/// Its inverse polynomial is another fit to the same lens: radius by angle from the image plane.
+/// The inverse polynomial of the file is an independent fit to the same lens: radius as a function of the angle from
+/// the image plane.
 TEST(OcamCalibration, AgreesWithARealFilesOwnInverse) {
   const char* const kName = "mirror-calibration/calib_results_fisheye.txt";
   AZIMUTH_REQUIRE_DATA(kName);

@@ -1,4 +1,4 @@
-// Where relative paths of a configuration begin, and what becomes of those written for 0.1.0.
+// Base folders of relative paths in a configuration, and the treatment of paths written for version 0.1.0.
 
 #include "settings/path_text.hpp"
 
@@ -58,7 +58,7 @@ TEST(PlacedPath, SaysWhenTheSameNameIsNowAnotherFile) {
 
 class PathsOfAFile : public testing::Test {
  protected:
-  /// What is to be told of a file with this text.
+  /// The messages about a file with this text.
   std::vector<std::string> read(const std::string& text) {
     std::vector<Section*> all = pointers(sections_);
     const fs::path file = folder_ / "robot.toml";

@@ -1,4 +1,4 @@
-// Each kind of violation, with its place; what is right is set, what is wrong is left alone.
+// Each kind of violation with its location. Valid values are set, invalid ones leave the setting unchanged.
 
 #include "settings/reader.hpp"
 
@@ -30,7 +30,7 @@ struct Sample {
   std::optional<PixelPoint> centre_px;
 };
 
-/// A table over one of each kind of member, in a section and a nested one.
+/// Tables with one member of each kind, in a section and in a nested section.
 struct Tables {
   Sample sample;
   Section top{"", "top", {{"name", &sample.name, "a text"}}};

@@ -29,13 +29,17 @@ TEST(RefiningEstimator, NamesLooksAndNeitherAreDecidedByThoseWhoCan) {
 }
 
 TEST(RefiningEstimator, WhichEstimatorIsConfiguredDoesNotMatter) {
-  for (const char* configured : {"by_rig", "ekf", "lamp_ekf", "fastslam", "smoother"}) {
+  for (const auto& [configured, kind] : estimator_kinds()) {
     Configuration configuration;
-    configuration.estimator = configured;
-    EXPECT_EQ(refining_estimator_name(rig_with(FrontEnd::bearings, true), configuration), "smoother") << configured;
-    EXPECT_EQ(refining_estimator_name(rig_with(FrontEnd::bearings, false), configuration), "smoother") << configured;
-    EXPECT_EQ(refining_estimator_name(rig_with(FrontEnd::sift, false), configuration), "ekf") << configured;
-    EXPECT_EQ(refining_estimator_name(rig_with(FrontEnd::lamps, false), configuration), "lamp_ekf") << configured;
+    configuration.estimator = kind;
+    EXPECT_EQ(chosen_refining_estimator(rig_with(FrontEnd::bearings, true), configuration), EstimatorKind::smoother)
+        << configured;
+    EXPECT_EQ(chosen_refining_estimator(rig_with(FrontEnd::bearings, false), configuration), EstimatorKind::smoother)
+        << configured;
+    EXPECT_EQ(chosen_refining_estimator(rig_with(FrontEnd::sift, false), configuration), EstimatorKind::ekf)
+        << configured;
+    EXPECT_EQ(chosen_refining_estimator(rig_with(FrontEnd::lamps, false), configuration), EstimatorKind::lamp_ekf)
+        << configured;
   }
 }
 
@@ -49,7 +53,7 @@ TEST(RefiningEstimator, SaysWhatIsNotRefined) {
 
 TEST(RefiningEstimator, TheSmootherLeavesToAFilterWhatIsNotForIt) {
   Configuration configuration;
-  configuration.estimator = "smoother";
+  configuration.estimator = EstimatorKind::smoother;
   Rig rig;
   rig.front_end = FrontEnd::sift;
   std::vector<PastPose> past;

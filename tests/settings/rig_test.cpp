@@ -60,7 +60,7 @@ TEST(RigFile, ChecksKeysAgainstEachOther) {
   EXPECT_THAT(rig.error(), SizeIs(2)) << text(rig.error());
 }
 
-/// A camera of each model, with parameters that make one.
+/// A camera of each model, with valid parameters.
 std::string camera_text(std::string_view model) {
   return "[camera]\nmodel = \"" + std::string(model) + R"("
 centre_px = [320.25, 240]
@@ -104,7 +104,7 @@ TEST_P(RigModel, NeedsMoreThanItsName) {
   EXPECT_THAT(text(rig.error()), HasSubstr("needs the key 'centre_px' in [camera]"));
 }
 
-/// Each model asks for its own parameters and no others; that of polynomials has one which is usually 0.
+/// Each model requires exactly its own parameters. The polynomial model has one optional parameter, which is usually 0.
 TEST(RigFile, AsksForTheParametersOfItsModelOnly) {
   const std::map<std::string_view, std::vector<std::string_view>> needed{
       {"bearings", {}},
@@ -134,7 +134,7 @@ TEST(RigFile, NeedsOnlyACentreForAzimuthsAlone) {
   EXPECT_FALSE(read_rig("[camera]\nmodel = \"radial\"\n", "rig.toml"));
 }
 
-/// Of bearings that come ready made, and where nothing is known of elevations, nobody can level anything.
+/// A tilt cannot be corrected for bearings from an external detector, or if the camera model has no elevations.
 TEST(RigFile, RefusesATiltThatLevelsNothing) {
   const auto problem = [](const std::string& camera) {
     const FileResult<Rig> rig = read_rig("[camera]\n" + camera, "rig.toml");
@@ -150,7 +150,7 @@ TEST(RigFile, RefusesATiltThatLevelsNothing) {
   EXPECT_THAT(problem(mirror + "roll_rad = 1.0\n"), HasSubstr("'camera.roll_rad'"));
 }
 
-/// A rig that is silent of its tilt does not say that it is level; written again, it is as silent as before.
+/// A rig without a tilt does not state that the camera is level. Writing the rig keeps the tilt unstated.
 TEST(RigFile, LeavesATiltUnknownWhereElevationsAreKnown) {
   const auto unknown_rad = [](const std::string& camera) {
     const FileResult<Rig> rig = read_rig("[camera]\n" + camera, "rig.toml");

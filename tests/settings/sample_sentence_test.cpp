@@ -7,7 +7,7 @@
 namespace azimuth {
 namespace {
 
-/// Every trouble has words, in one line, and a key or column to look at where there is one.
+/// Every trouble has a one-line text, with a key or column to check if there is one.
 TEST(Sentence, OfEveryTroubleIsOne) {
   for (int i = 1; i <= static_cast<int>(SampleTrouble::names_repeated); ++i) {
     SampleFinding finding;

@@ -1,5 +1,5 @@
-// Texts that would overflow the TOML library's stack, or keep it busy, are refused before it sees them; what people
-// write is not.
+// Texts that would overflow the TOML library's stack or take it very long are refused before parsing; realistic texts
+// are not.
 
 #include <gmock/gmock.h>
 #include <string>
@@ -22,7 +22,7 @@ std::string times(int count, const std::string& text) {
   return all;
 }
 
-/// What a configuration of this text is refused for.
+/// The reason for which a configuration with this text is refused.
 std::string refusal(const std::string& toml) {
   const FileResult<Configuration> read = read_configuration(toml, "azimuth.toml");
   return read ? "" : text(read.error());
@@ -66,7 +66,7 @@ TEST(TomlBounds, WhatIsNoKeyMayHaveAnyDotsAndBrackets) {
   const std::string read =
       refusal("# " + dots + "\nx = \"" + dots + "\"\ny = '''\n" + dots + "\n'''\nz = [" + times(1000, "0.5, ") + "]\n");
   EXPECT_THAT(read, Not(HasSubstr("deeper")));
-  EXPECT_THAT(read, HasSubstr("unknown key 'x'"));  // so it was read
+  EXPECT_THAT(read, HasSubstr("unknown key 'x'"));  // proves that the text was parsed
 }
 
 TEST(TomlBounds, ThirtyTwoLevelsAreRead) {

@@ -80,7 +80,7 @@ TEST(BearingSensor, NoiseAndDetectionHaveTheirStatistics) {
 TEST(BearingSensor, ClutterCarriesTheNameOfALandmarkNotSeen) {
   Random random(3, RandomPurpose::bearings);
   BearingSensorSettings settings = perfect();
-  settings.max_range_m = 3.5;  // sees 0 and 1
+  settings.max_range_m = 3.5;  // landmarks 0 and 1 are within range
   settings.clutter_per_set = 0.5;
   int clutter = 0;
   for (int i = 0; i < 10000; ++i) {

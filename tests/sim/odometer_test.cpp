@@ -15,7 +15,7 @@ void PrintTo(const Control& control, std::ostream* out) {
 
 namespace {
 
-/// Sample covariance of the pose after `control`, in the frame of its start, about the noiseless pose.
+/// Sample covariance of the pose after `control`, in the frame of its start, about the pose without noise.
 Eigen::Matrix3d sample_covariance(const Control& control, const OdometerSettings& settings, int count) {
   Random random(11, RandomPurpose::odometry);
   const Pose2 expected = displacement(control);
@@ -31,7 +31,7 @@ Eigen::Matrix3d sample_covariance(const Control& control, const OdometerSettings
 
 class OdometerNoise : public testing::TestWithParam<Control> {};
 
-// The simulated noise against the covariance every filter here is built on (SPEC I.3).
+// Compares the simulated noise with the covariance that all filters here assume (mathematics I.3).
 TEST_P(OdometerNoise, HasTheCovarianceOfTheMotionModel) {
   OdometerSettings settings;
   settings.lambda_drift_rad2_per_m = 1e-3;

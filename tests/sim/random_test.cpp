@@ -8,7 +8,7 @@ namespace azimuth {
 namespace {
 
 TEST(Random, GivesTheSameBitsEverywhere) {
-  // Values computed outside of this program from the definition of the stream: a change would silently change every
+  // The values were computed independently from the definition of the stream. A change of the stream would change every
   // simulated run.
   Random random(1, RandomPurpose::scene);
   std::vector<double> drawn;

@@ -147,7 +147,7 @@ TEST(Simulate, LagShiftsTheStampsOfOdometry) {
 }
 
 TEST(Simulate, OdometryDriftsAsTheModelSays) {
-  // Final heading error of many drives against sum of lambda * distance and lambda * turning.
+  // Compares the squared final heading error of many drives with its expected value from distance and turns.
   constexpr int kSeeds = 200;
   double squares = 0.0, expected = 0.0;
   for (int seed = 1; seed <= kSeeds; ++seed) {
@@ -163,7 +163,7 @@ TEST(Simulate, OdometryDriftsAsTheModelSays) {
                   (std::abs(control.first_turn_rad) + std::abs(control.second_turn_rad));
     }
   }
-  EXPECT_NEAR(squares / expected, 1.0, 0.3);  // chi-square of 200: sigma 0.1
+  EXPECT_NEAR(squares / expected, 1.0, 0.3);  // chi-squared with 200 degrees of freedom: standard deviation 0.1
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Decisions that are changed: what was decided before leaves no trace.
+// Changing an association leaves no trace of the previous one.
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -36,7 +36,7 @@ TEST(AssignmentChanges, UndoneTheyGiveTheSameSolution) {
   Smoother& smoother = driven.smoother;
   const BearingGraph::Values before = smoother.graph().values();
   const double energy = smoother.energy();
-  // WHEN a third of the bearings are taken for other landmarks, or none
+  // WHEN a third of the bearings are assigned to other landmarks or to none
   std::vector<std::pair<BearingId, LandmarkId>> was;
   for (BearingId id = 0; id < smoother.graph().bearings(); id += 3) {
     was.emplace_back(id, smoother.graph().landmark_of(id));
@@ -44,7 +44,7 @@ TEST(AssignmentChanges, UndoneTheyGiveTheSameSolution) {
   }
   smoother.optimise(20);
   EXPECT_GT(largest_difference(before, smoother.graph().values()), 1e-3);
-  // AND that is taken back
+  // AND the changes are undone
   for (const auto& [id, landmark] : was) smoother.assign(id, landmark);
   smoother.optimise(500);
   EXPECT_LT(largest_difference(before, smoother.graph().values()), 1e-6);
@@ -55,12 +55,12 @@ TEST(AssignmentChanges, ACopyGoesItsOwnWay) {
   Driven driven;
   const BearingGraph::Values before = driven.smoother.graph().values();
   const Eigen::Matrix3d covariance = driven.smoother.newest_covariance();
-  // WHEN a copy is told that everything was otherwise
+  // WHEN associations of a copy change
   Smoother copy = driven.smoother;
   for (BearingId id = 0; id < copy.graph().bearings(); id += 2) copy.assign(id, kOfNothing);
   copy.add_pose(driven.drive.images[1].motion);
   copy.optimise(20);
-  // THEN the original knows nothing of it
+  // THEN the original is unaffected
   EXPECT_EQ(largest_difference(before, driven.smoother.graph().values()), 0.0);
   EXPECT_EQ(driven.smoother.newest_covariance(), covariance);
   driven.smoother.optimise(5);
@@ -69,7 +69,7 @@ TEST(AssignmentChanges, ACopyGoesItsOwnWay) {
 }
 
 TEST(AssignmentChanges, MergedTheyAreOneLandmarkOfAllBearings) {
-  // GIVEN a drive in which every other sighting of landmark 0 was taken for something else
+  // GIVEN a drive in which every other bearing of landmark 0 was assigned to a second landmark
   Driven driven;
   Smoother& smoother = driven.smoother;
   const BearingGraph::Values once = smoother.graph().values();
@@ -88,7 +88,7 @@ TEST(AssignmentChanges, MergedTheyAreOneLandmarkOfAllBearings) {
   // WHEN they are merged
   smoother.merge(landmark, twin);
   smoother.optimise(200);
-  // THEN all is as if they had never been two
+  // THEN the result is the same as with one landmark from the start
   EXPECT_TRUE(smoother.graph().bearings_of(twin).empty());
   EXPECT_EQ(smoother.graph().bearings_of(landmark).size(), bearings.size());
   BearingGraph::Values merged = smoother.graph().values();
@@ -121,8 +121,8 @@ RC_GTEST_PROP(AssignmentChangesProperty, AnyHistoryIsTheBatchSolutionOfItsEnd, (
   std::vector<std::pair<BearingId, LandmarkId>> meant;
   while (!feeder.done()) {
     feeder.feed(smoother);
-    // Wrong decisions come and go; at the end all are mended, so that there is one good solution.
-    for (int i = 0; i < 3 && smoother.graph().landmarks() > 0; ++i) {  // none may be seen at first
+    // Changes associations at random. The end restores all of them, so that there is one good optimum.
+    for (int i = 0; i < 3 && smoother.graph().landmarks() > 0; ++i) {  // there may be no landmark at first
       const BearingId bearing = any(smoother.graph().bearings());
       meant.emplace_back(bearing, smoother.graph().landmark_of(bearing));
       smoother.assign(bearing, numbers.uniform() < 0.5 ? kOfNothing : any(smoother.graph().landmarks()));
@@ -134,7 +134,8 @@ RC_GTEST_PROP(AssignmentChangesProperty, AnyHistoryIsTheBatchSolutionOfItsEnd, (
   for (; !meant.empty(); meant.pop_back()) smoother.assign(meant.back().first, meant.back().second);
   smoother.optimise(1000);
   BatchProblem batch(smoother.graph(), settings);
-  // It damps in a way of its own, and comes to no end from a few starts in thousands; the smoother did.
+  // The batch solver damps in its own way and does not converge from a few starts in thousands, where the smoother
+  // does.
   if (batch.solve() <= 0) RC_DISCARD("no batch solution to compare with");
   RC_ASSERT(largest_difference(batch.values(), smoother.graph().values()) < 1e-6);
 }

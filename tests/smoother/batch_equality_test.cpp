@@ -1,4 +1,4 @@
-// What the smoother finds image by image is what one solution of everything finds.
+// The incremental solution of the smoother equals the batch solution of all images.
 
 #include <gtest/gtest.h>
 
@@ -97,7 +97,7 @@ TEST(BatchEquality, LiveSettingsLeaveNextToNothing) {
 }
 
 TEST(BatchEquality, LittleIsDoneAnewWhenNothingMuchIsNew) {
-  // GIVEN a drive of several laps, in which all is known
+  // GIVEN a drive of several laps that has mapped all landmarks
   const NamedDrive drive = named_drive({.seed = 7, .images = 600});
   Smoother smoother{SmootherSettings{}};
   DriveFeeder feeder(drive);
@@ -109,7 +109,7 @@ TEST(BatchEquality, LittleIsDoneAnewWhenNothingMuchIsNew) {
     updated += smoother.factor().updated();
     fronts += smoother.factor().fronts();
   }
-  // THEN an image changes a small part of the factor
+  // THEN an image changes only a small part of the factor
   EXPECT_LT(static_cast<double>(updated), 0.4 * static_cast<double>(fronts));
 }
 

@@ -1,4 +1,4 @@
-// Errors of odometry and camera as unknowns.
+// Calibration errors of odometry and camera as unknowns of the graph.
 
 #include <Eigen/LU>
 #include <array>
@@ -24,14 +24,14 @@ Smoother smoothed(const NamedDrive& drive, const SmootherSettings& settings) {
 }
 
 TEST(SmootherCalibration, TurnScaleAndCameraYawAreFound) {
-  // GIVEN odometry that says 15 % too much of every turn, and a camera turned by 6 degrees
+  // GIVEN odometry that reports turns 15 % too large, and a camera turned by 6 degrees
   const NamedDrive drive = named_drive({.images = 250, .scale_turn = 1.15, .camera_yaw_rad = 0.1});
   SmootherSettings settings;
   settings.calibration = {.sigma_scale_turn = 0.1, .sigma_camera_yaw_rad = 0.1};
   const Smoother smoother = smoothed(drive, settings);
   EXPECT_NEAR(smoother.graph().calibration()[calibration::scale_turn], 1.0 / 1.15 - 1.0, 0.02);
   EXPECT_NEAR(smoother.graph().calibration()[calibration::yaw], 0.1, 0.01);
-  // THEN the path is better than without
+  // THEN the path is more accurate than without calibration
   const auto error_m = [&](const Smoother& solved) {
     double sum = 0.0;
     for (std::size_t i = 0; i < drive.images.size(); ++i)
@@ -55,7 +55,7 @@ TEST(SmootherCalibration, AllOfItTogetherIsTheBatchSolution) {
 }
 
 TEST(SmootherCalibration, GradientIsThatOfTheEnergy) {
-  // Any error of how odometry depends on its calibration would show here.
+  // The test would reveal any error in the derivatives of odometry by its calibration.
   const NamedDrive drive = named_drive({.seed = 8, .images = 12});
   SmootherSettings settings;
   settings.calibration = kAll;
@@ -85,7 +85,7 @@ TEST(SmootherCalibration, CovarianceIsThatOfTheDenseInverse) {
   const Eigen::MatrixXd lower(batch.normal().H);
   const Eigen::MatrixXd whole = Eigen::MatrixXd(lower.selfadjointView<Eigen::Lower>()).inverse();
   constexpr std::array kFree{calibration::scale_turn, calibration::lag, calibration::centre_x, calibration::centre_y};
-  const auto first = whole.rows() - static_cast<Eigen::Index>(kFree.size());  // they are the last ones there
+  const auto first = whole.rows() - static_cast<Eigen::Index>(kFree.size());  // the calibrations are the last unknowns
   for (std::size_t i = 0; i < kFree.size(); ++i)
     for (std::size_t j = 0; j < kFree.size(); ++j) {
       const double expected = whole(first + static_cast<Eigen::Index>(i), first + static_cast<Eigen::Index>(j));
@@ -112,7 +112,7 @@ TEST(SmootherCalibration, WhatBeginsAtTheSolutionStaysThere) {
 }
 
 TEST(SmootherCalibration, DriftTurnsThePathByHalfOfWhatItTurnsTheHeading) {
-  // GIVEN an arc in many segments, and the same with a heading that drifts
+  // GIVEN an arc in many segments, and the same arc with a heading that drifts
   constexpr double kDrift_rad_per_m = 1e-4;
   const auto arc = [](double drift_rad_per_m) {
     Motion motion;

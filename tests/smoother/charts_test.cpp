@@ -1,4 +1,4 @@
-// Charts of landmarks that go along with the path.
+// Charts of landmarks that move along with the path.
 
 #include <Eigen/LU>
 #include <cmath>
@@ -16,20 +16,20 @@ TEST(Charts, ALandmarkSeenFromElsewhereStaysWhereItIs) {
     EXPECT_LT((landmark.seen_from(shift).p_map() - landmark.p_map()).norm(), 1e-6);
     EXPECT_EQ(landmark.seen_from(shift).p_map_chart, landmark.p_map_chart + shift);
   }
-  // at infinity
+  // A landmark at infinity.
   const SmoothedLandmark star = SmoothedLandmark({1.0, 2.0}, 0.7, 0.0).seen_from({5.0, -3.0});
   EXPECT_EQ(star.direction_rad, 0.7);
   EXPECT_EQ(star.inverse_distance_per_m, 0.0);
 }
 
-/// A way of 30 m past landmarks, of which nothing says in which direction it leads.
+/// A path of 30 m past landmarks whose overall direction is unconstrained.
 struct FreeToTurn {
   explicit FreeToTurn(bool charts_go_along)
       : graph(
             [&] {
               SmootherSettings settings;
               settings.charts_go_along = charts_go_along;
-              settings.inverse_depth_sigma_per_m = 1e3;  // next to no prior
+              settings.inverse_depth_sigma_per_m = 1e3;  // a very weak prior
               return settings;
             }(),
             {}) {
@@ -52,7 +52,7 @@ struct FreeToTurn {
     }
     put_landmarks();
   }
-  /// Where they are.
+  /// Moves the landmarks to their true places.
   void put_landmarks() {
     Eigen::VectorXd step = Eigen::VectorXd::Zero(graph.rows());
     for (std::size_t k = 0; k < landmarks.size(); ++k) {
@@ -64,7 +64,7 @@ struct FreeToTurn {
     }
     graph.move(step);
   }
-  /// The step that turns everything about the first pose.
+  /// The step that rotates the path and all landmarks about the first pose.
   Eigen::VectorXd turn(double angle_rad) const {
     const auto turned = [&](const Eigen::Vector2d& p) {
       return Eigen::Vector2d(-angle_rad * p.y(), angle_rad * p.x());

@@ -1,4 +1,4 @@
-// Covariances against the inverse of the whole dense matrix.
+// Compares covariances with the inverse of the whole dense matrix.
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -15,7 +15,7 @@ struct Solved {
   NamedDrive drive;
   Smoother smoother;
   DriveFeeder feeder;
-  Eigen::MatrixXd inverse;  // unknowns as BatchProblem has them, poses along their own axes
+  Eigen::MatrixXd inverse;  // unknowns in the order of BatchProblem, pose errors along the pose's own axes
 
   explicit Solved(const SmootherSettings& settings)
       : drive(named_drive({.seed = 3, .images = 90})), smoother(settings), feeder(drive) {
@@ -30,7 +30,7 @@ struct Solved {
   }
 };
 
-/// Everything linearised at the optimum: the factor's matrix is then the batch's.
+/// Everything is linearised at the optimum, so that the factor's matrix equals the batch matrix.
 SmootherSettings always_linearised() {
   SmootherSettings settings;
   settings.converged_below = 1e-18;

@@ -23,7 +23,7 @@ TEST(Elimination, AStarsMiddleGoesLast) {
   EliminationGraph graph(5);
   for (int leaf = 1; leaf < 5; ++leaf) graph.tie(0, leaf);
   const Elimination elimination = graph.eliminate(std::vector<std::uint8_t>(5, 0));
-  EXPECT_EQ(fill(elimination), 4u);  // none is filled in
+  EXPECT_EQ(fill(elimination), 4u);  // no fill-in
   EXPECT_GE(std::ranges::find(elimination.order, 0) - elimination.order.begin(), 3);
 }
 
@@ -38,7 +38,7 @@ TEST(Elimination, RankComesBeforeDegree) {
 }
 
 TEST(Elimination, NothingIsTiedToItself) {
-  EliminationGraph graph(70);  // more than a word of bits
+  EliminationGraph graph(70);  // more than one word of the bit set
   const std::vector<int> all{0, 1, 65, 69};
   graph.tie_all(all);
   graph.tie(3, 3);
@@ -47,7 +47,7 @@ TEST(Elimination, NothingIsTiedToItself) {
   EXPECT_EQ(elimination.order.size(), 70u);
 }
 
-/// Of each node, in a row of eliminations of which each changes what the next one is tied to, how many come before it.
+/// For each node: the length of the longest chain of dependent eliminations before it.
 std::vector<int> heights(const Elimination& elimination) {
   std::vector<int> heights(elimination.order.size());
   for (std::size_t turn = 0; turn < elimination.order.size(); ++turn)
@@ -58,8 +58,8 @@ std::vector<int> heights(const Elimination& elimination) {
   return heights;
 }
 
-/// A drive among landmarks that are seen from everywhere: a chain of nodes that are all tied to the same ones as well,
-/// which go last.
+/// A drive among landmarks visible from everywhere: a chain of nodes, all tied to the same landmark nodes, which are
+/// eliminated last.
 constexpr int kChain = 256, kSeenFromEverywhere = 10;
 
 Elimination chain_eliminated() {
@@ -75,10 +75,10 @@ Elimination chain_eliminated() {
 
 TEST(Elimination, AChainIsHalvedAgainAndAgain) {
   const Elimination elimination = chain_eliminated();
-  // THEN none of its nodes has a long way to the last one
+  // THEN no node of the chain has many dependent eliminations before it
   const std::vector<int> all = heights(elimination);
   EXPECT_LT(*std::max_element(all.begin(), all.begin() + kChain), 16);
-  // AND not much is filled in: each has at most two of the chain behind it
+  // AND there is little fill-in: each node has at most two later nodes of the chain
   EXPECT_LE(fill(elimination), (2u + kSeenFromEverywhere) * kChain + kSeenFromEverywhere * kSeenFromEverywhere);
 }
 
@@ -93,14 +93,14 @@ TEST(Elimination, SeveralOfAChainShareAFront) {
       ++times[static_cast<std::size_t>(node)];
       nodes.insert(node);
     }
-    // All that a node is tied to when it goes is there.
+    // The front contains all ties that a node has when it is eliminated.
     for (const int node : front.eliminated) {
       const auto turn =
           static_cast<std::size_t>(std::ranges::find(elimination.order, node) - elimination.order.begin());
       EXPECT_TRUE(std::ranges::all_of(elimination.behind[turn], [&](int other) { return nodes.contains(other); }));
     }
     if (front.parent == FrontDraft::kRoot) continue;
-    // AND the front that eliminates the first of those behind has all of them.
+    // AND the parent front contains all remaining nodes of this front.
     const FrontDraft& above = fronts[static_cast<std::size_t>(front.parent)];
     std::set<int> there(above.behind.begin(), above.behind.end());
     there.insert(above.eliminated.begin(), above.eliminated.end());
@@ -133,7 +133,7 @@ RC_GTEST_PROP(EliminationProperty, TiesAreThoseOfEliminationByHand, (std::uint64
     for (std::size_t k = i + 1; k < elimination.order.size(); ++k) {
       const auto other = static_cast<std::size_t>(elimination.order[k]);
       RC_ASSERT(ranks[static_cast<std::size_t>(node)] <= ranks[other]);
-      // Of those that may go, none had fewer ties, unless it had waited for others.
+      // Among the admissible nodes none is cheaper, counting its ties and its depth in the elimination tree.
       const auto cost = [&](std::size_t which, std::size_t ties) {
         return EliminationGraph::kLevelsForATie * static_cast<int>(ties) + waited[which];
       };

@@ -1,4 +1,4 @@
-// Each derivative against a perturbed input: near, far, at infinity and beyond.
+// Compares each derivative with finite differences, for landmarks near, far, at infinity and beyond.
 
 #include "slam/smoother/factors.hpp"
 
@@ -54,7 +54,7 @@ TEST(SeenAzimuth, NothingIsSeenOfWhatIsTooNear) {
   SeenAzimuth seen;
   EXPECT_FALSE(see(SmoothedPose({1.96, 0.0, 0.0}), landmark, 0.05, seen));
   EXPECT_TRUE(see(SmoothedPose({1.94, 0.0, 0.0}), landmark, 0.05, seen));
-  // On the spot itself there is no direction whatever is asked for.
+  // At the landmark itself no direction is defined, for any camera yaw.
   EXPECT_FALSE(see(SmoothedPose({2.0, 0.0, 0.0}), landmark, 0.0, seen));
 }
 
@@ -70,7 +70,7 @@ RC_GTEST_PROP(SeenAzimuthProperty, DerivativesAnywhere, (std::uint64_t seed)) {
   const SmoothedLandmark landmark({numbers.uniform(-9, 9), numbers.uniform(-9, 9)}, numbers.uniform(-3, 3),
                                   numbers.uniform(-0.5, 2.0));
   SeenAzimuth seen;
-  // Derivatives grow with nearness, and so does what differencing leaves out.
+  // Derivatives grow as the landmark comes nearer, and so does the error of finite differences.
   RC_PRE(see(pose, landmark, 0.3, seen) && seen.by_pose.norm() < 10.0 && seen.by_landmark.norm() < 100.0);
   expect_derivatives(pose, landmark);
 }

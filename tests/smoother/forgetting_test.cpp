@@ -1,4 +1,4 @@
-// Poses that a graph forgets: what is left is solved as ever, and where the robot was is still known.
+// Marginalising poses of a graph: the remaining graph is solved as before, and the past path stays known.
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -77,7 +77,7 @@ TEST(Forgetting, WhatIsLeftIsSolvedAsABatch) {
   ASSERT_GT(batch.solve(), 0);
   EXPECT_LT(largest_difference(batch.values(), smoother.graph().values()), 1e-6);
   EXPECT_NEAR(batch.energy(), smoother.energy(), 1e-7 * (1.0 + batch.energy()));
-  // AND measurements stand where they belong
+  // AND bearings belong to the right landmarks and poses
   for (LandmarkId landmark = 0; landmark < smoother.graph().landmarks(); ++landmark)
     for (const BearingId id : smoother.graph().bearings_of(landmark)) {
       EXPECT_EQ(smoother.graph().landmark_of(id), landmark);
@@ -103,7 +103,7 @@ TEST(Forgetting, ACopyKeepsWhatTheOtherForgets) {
   EXPECT_GT(copy.newest_covariance()(2, 2), covariance(2, 2)) << "less is known";
 }
 
-/// A drive whose every third pose sees something, and what was known of all poses before the others were forgotten.
+/// A drive in which only every third pose has bearings, with the estimates of all poses before marginalisation.
 struct HalfBlind {
   static constexpr PoseId kPoses = 31;
   Smoother smoother{[] {
@@ -148,7 +148,7 @@ struct HalfBlind {
 TEST(ThinnedPath, PosesThatSawNothingAreToldAsBefore) {
   HalfBlind drive;
   drive.forget({1, 4, 5, 7, 8, 10, 14, 16, 17, 19, 22, 26});
-  // in two goes: what the first ones were seen from is forgotten as well
+  // Two rounds: the second forgets poses to which those of the first refer.
   std::vector<PoseId> rest;
   for (PoseId id = 1; id + 1 < drive.smoother.graph().poses(); ++id)
     if (drive.path.numbers()[static_cast<std::size_t>(id)] % 3 != 0) rest.push_back(id);

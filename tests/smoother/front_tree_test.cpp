@@ -1,4 +1,4 @@
-// The factor of matrices that grow and change, against dense ones.
+// Compares the factor of growing and changing matrices with dense ones.
 
 #include "slam/smoother/front_tree.hpp"
 
@@ -16,7 +16,7 @@ namespace {
 
 using AnyNumbers = RandomNumbers<SplitMix>;
 
-/// Blocks of one to three rows, each with a term of its own, and terms between some.
+/// Blocks of one to three rows, with a term for each block and terms between some blocks.
 class AnyEquations : public NormalEquations {
  public:
   Block add_block(int size, AnyNumbers& numbers) {
@@ -27,7 +27,7 @@ class AnyEquations : public NormalEquations {
     add_term(block, block, numbers);
     return block;
   }
-  /// Another one when there is one already.
+  /// Replaces an existing term.
   void add_term(Block a, Block b, AnyNumbers& numbers) {
     const int size = a == b ? sizes_[at(a)] : sizes_[at(a)] + sizes_[at(b)];
     Eigen::MatrixXd J(size, size);
@@ -41,7 +41,7 @@ class AnyEquations : public NormalEquations {
   bool has_term(Block a, Block b) const { return terms_.contains({std::min(a, b), std::max(a, b)}); }
   Block blocks() const { return static_cast<Block>(sizes_.size()); }
 
-  /// Over all rows; those unused have a one on the diagonal.
+  /// The dense matrix over all rows; unused rows have a one on the diagonal.
   Eigen::MatrixXd dense(double damping = 0.0) const {
     Eigen::MatrixXd H = Eigen::MatrixXd::Zero(rows_, rows_);
     for (const auto& [blocks, term] : terms_) {
@@ -93,16 +93,16 @@ class AnyEquations : public NormalEquations {
   int rows_ = 0;
 };
 
-/// Equations that grow, and their factor.
+/// Growing equations and their factor.
 struct Growing {
   explicit Growing(std::uint64_t seed) : numbers{SplitMix(seed)} {}
-  /// Of so many blocks, and factored.
+  /// Starts with `blocks` blocks, already factored.
   Growing(std::uint64_t seed, int blocks) : Growing(seed) {
     grow(blocks);
     EXPECT_TRUE(tree.update(equations));
   }
 
-  /// A chain, with ties far back now and then: the shape of a drive.
+  /// Grows a chain with some ties far back, the structure of a drive.
   void grow(int blocks) {
     for (int i = 0; i < blocks; ++i) {
       const Block block = equations.add_block(1 + static_cast<int>(3.0 * numbers.uniform()), numbers);
@@ -164,7 +164,7 @@ TEST(FrontTree, WhatIsStaleIsMadeAnewAndNothingElse) {
   ASSERT_TRUE(tree.update(grown.equations));
   EXPECT_EQ(tree.updated(), 0u);
 
-  grown.equations.add_term(40, 41, grown.numbers);  // in place of the one there was
+  grown.equations.add_term(40, 41, grown.numbers);  // replaces the existing term
   tree.mark_stale(40, 41);
   ASSERT_TRUE(tree.update(grown.equations));
   EXPECT_GT(tree.updated(), 0u);
@@ -178,7 +178,7 @@ TEST(FrontTree, WhatIsHardlyPulledStaysWhereItIs) {
   Eigen::VectorXd little = Eigen::VectorXd::Constant(grown.equations.rows(), 1e-12);
   tree.forwards(little, 1e-6);
   EXPECT_EQ(little.norm(), 0.0);
-  // A pull in one place, and little ones elsewhere
+  // One large entry, and tiny ones in all other rows
   Eigen::VectorXd b = Eigen::VectorXd::Constant(grown.equations.rows(), 1e-12);
   b.head(3).setOnes();
   const Eigen::VectorXd expected = grown.equations.dense().llt().solve(b);
@@ -193,7 +193,7 @@ TEST(FrontTree, DampingMultipliesTheDiagonal) {
   damped.mark_all_stale();
   ASSERT_TRUE(damped.update(grown.equations, 0.3));
   grown.expect_solves(damped, 0.3);
-  grown.expect_solves(grown.tree);  // the one it was copied from is as it was
+  grown.expect_solves(grown.tree);  // the original tree is unchanged
 }
 
 TEST(FrontTree, SaysWhenTheMatrixIsNotPositive) {

@@ -1,4 +1,4 @@
-// Landmarks above the robot, seen under an elevation as well.
+// Landmarks above the robot, whose bearings have elevations.
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ SmootherSettings exactly_solved(bool charts_go_along = true) {
   return settings;
 }
 
-/// A robot that drives on a circle below lamps; some others stand at its own height and have no elevation.
+/// A robot drives a circle under lamps; posts at the height of the camera have no elevations.
 struct LampDrive {
   std::vector<Eigen::Vector3d> lamps{{2.0, 3.0, 3.0},  {-3.0, 1.0, 2.5}, {0.5, -2.0, 4.0},
                                      {4.0, -3.0, 3.5}, {-2.0, 5.0, 2.0}, {1.0, 1.0, 5.0}};
@@ -85,7 +85,7 @@ TEST(Heights, GoWithWhatBearingsAreTakenFor) {
   LampDrive drive(2);
   drive.run(40, 4);
   Smoother& smoother = drive.smoother;
-  // GIVEN a lamp that is given up, one that loses half of its bearings, and one whose bearings become another's
+  // GIVEN one lamp that is removed, one that loses half of its bearings, and one whose bearings move to another lamp
   const auto take = [&](LandmarkId from, LandmarkId to, int of_each) {
     const std::vector<BearingId> bearings = smoother.graph().bearings_of(from);
     for (std::size_t i = 0; i < bearings.size(); i += static_cast<std::size_t>(of_each))
@@ -100,7 +100,7 @@ TEST(Heights, GoWithWhatBearingsAreTakenFor) {
   EXPECT_TRUE(std::isnan(smoother.graph().height_m(drive.landmarks[0])));
   EXPECT_EQ(smoother.graph().elevations_of(again), 40);
   expect_batch(drive, exactly_solved());
-  // AND when it comes back
+  // AND when the removed lamp returns
   drive.landmarks[2] = again;
   drive.run(10, 4);
   smoother.optimise(100);
@@ -129,7 +129,7 @@ TEST(Heights, CovarianceIsThatOfTheBatch) {
   drive.smoother.optimise(100);
   BatchProblem batch(drive.smoother.graph(), exactly_solved());
   ASSERT_GT(batch.solve(), 0);
-  // Live, parts of the factor are as they were linearised some images ago; here all of it is to be of the moment.
+  // A live factor contains linearisations from earlier images. The comparison needs all of it at the current values.
   drive.smoother.start_factor_anew();
   drive.smoother.optimise(1);
   const Eigen::MatrixXd H = Eigen::MatrixXd(batch.normal().H).selfadjointView<Eigen::Lower>();

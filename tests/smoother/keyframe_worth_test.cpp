@@ -1,4 +1,4 @@
-// Which images are worth least.
+// Selection of the keyframes with the least information.
 
 #include "slam/smoother/keyframe_worth.hpp"
 
@@ -64,7 +64,7 @@ TEST(KeyframeWorth, LandmarksKeepWhatTheyNeed) {
 }
 
 TEST(KeyframeWorth, WhatIsSeenSeldomIsWorthMore) {
-  // GIVEN images of landmarks 0 to 3, seen throughout, and every tenth one also of one that is seen in no other
+  // GIVEN images of landmarks 0 to 3, and in every tenth image also of a landmark that no other image shows
   NamedDrive drive = named_drive({.images = 100, .landmarks = 5, .range_m = 20.0, .most_bearings = 5});
   for (std::size_t i = 0; i < drive.images.size(); ++i)
     if (i % 10 != 5) std::erase_if(drive.images[i].bearings, [](const auto& seen) { return seen.landmark == 4; });
@@ -108,7 +108,7 @@ TEST(KnownNames, HasNoMoreKeyframesThanItMay) {
     ASSERT_EQ(names.anchor(), all.anchor());
     ASSERT_LT((names.pose().position() - drive.images[i].T_first_body.position()).norm(), 0.3) << i;
   }
-  // THEN what is forgotten is still told, counted, and not much worse
+  // THEN forgotten poses can still be queried, and their accuracy is only slightly lower
   for (PoseNumber number = 0; number <= names.anchor(); ++number) {
     const Eigen::Vector2d there = drive.images[static_cast<std::size_t>(number)].T_first_body.position();
     told_m2 += (names.past(number).T_map_body.position() - there).squaredNorm();

@@ -1,4 +1,4 @@
-// How images of named landmarks become poses of the graph.
+// Conversion of images with named landmarks to poses of the graph.
 
 #include "slam/smoother/known_names.hpp"
 
@@ -67,7 +67,7 @@ TEST(KnownNames, BetweenPosesTheCovarianceGrowsWithTheMotion) {
   const Pose2 expected = driven(0.5, 0.2).T_start_end * driven(0.5, 0.2).T_start_end;
   EXPECT_LT((names.pose().vector() - expected.vector()).norm(), 1e-12);
   EXPECT_EQ(names.anchor(), 0);
-  // The same two motions, when an image makes a pose of them.
+  // The same two motions, now with an image that adds a pose to the graph.
   const Eigen::Matrix3d in_between = names.covariance();
   names.predict(Motion{});
   EXPECT_TRUE(names.update(seen_at(1.0, {{.azimuth_rad = 1.0, .identity = 8}})));
@@ -99,7 +99,7 @@ TEST(KnownNames, SameCallsSameBits) {
   EXPECT_EQ(run(), run());
 }
 
-/// Bearings from a pose to landmarks at these places, under the names 0, 1, ...
+/// Bearings from a pose to landmarks at these places, with the names 0, 1, ...
 std::vector<Bearing> bearings_from(const Pose2& T_map_body, const std::vector<Eigen::Vector2d>& landmarks) {
   std::vector<Bearing> bearings;
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
@@ -114,17 +114,18 @@ const std::vector<Eigen::Vector2d> kPlaces{{3.0, 2.0}, {-2.0, 3.0}, {4.0, -2.0},
 TEST(KnownNames, ALandmarkFirstSeenUnderAnothersNameIsFoundAllTheSame) {
   KnownNames names{{}};
   Pose2 T_map_body;
-  int replanted = 0;
+  int reinitialised = 0;
   for (int i = 0; i < 40; ++i) {
     std::vector<Bearing> bearings = bearings_from(T_map_body, kPlaces);
-    if (i < 2) std::swap(bearings[0].identity, bearings[3].identity);  // on the other side of the robot
+    // The other landmark is on the opposite side of the robot.
+    if (i < 2) std::swap(bearings[0].identity, bearings[3].identity);
     names.update(seen_at(i, bearings));
-    replanted += names.last_image().replanted;
+    reinitialised += names.last_image().reinitialised;
     const Motion motion = driven(0.15, 0.15);
     names.predict(motion);
     T_map_body = T_map_body * motion.T_start_end;
   }
-  EXPECT_GT(replanted, 0);
+  EXPECT_GT(reinitialised, 0);
   for (LandmarkId id = 0; id < names.smoother().graph().landmarks(); ++id)
     if (names.is_current(id)) {
       const Eigen::Vector2d& there = kPlaces[static_cast<std::size_t>(names.names()[static_cast<std::size_t>(id)])];
@@ -133,17 +134,17 @@ TEST(KnownNames, ALandmarkFirstSeenUnderAnothersNameIsFoundAllTheSame) {
 }
 
 TEST(KnownNames, AWrongIdeaOfDistancesIsForgottenOnceBearingsTell) {
-  // GIVEN landmarks that are all thought to stand much nearer than they do
+  // GIVEN a prior that places all landmarks much nearer than they are
   KnownNamesSettings settings;
   settings.smoother.inverse_depth_mean_per_m = 1.5;
   KnownNames names{settings};
   Pose2 T_map_body;
   const auto look = [&](double stamp_s) {
     std::vector<Bearing> bearings = bearings_from(T_map_body, kPlaces);
-    if (stamp_s > 0.5) bearings.erase(bearings.begin());  // seen from one place, and not again
+    if (stamp_s > 0.5) bearings.erase(bearings.begin());  // landmark 0 is seen from one place only
     names.update(seen_at(stamp_s, bearings));
   };
-  // WHEN the robot has seen them from many places, without an error
+  // WHEN the robot has seen the other landmarks from many places, without noise
   for (int i = 0; i < 40; ++i) {
     look(i);
     const Motion motion = driven(0.15, 0.15);
@@ -152,7 +153,7 @@ TEST(KnownNames, AWrongIdeaOfDistancesIsForgottenOnceBearingsTell) {
   }
   look(40.0);
   names.conclude(100);
-  // THEN nothing is left of that in what it knows
+  // THEN the wrong prior no longer affects the estimate
   const BearingGraph& graph = names.smoother().graph();
   EXPECT_LT((names.pose().vector() - T_map_body.vector()).norm(), 2e-3);
   for (LandmarkId id = 0; id < graph.landmarks(); ++id) {
@@ -174,7 +175,7 @@ TEST(KnownNames, ARobotPutElsewhereIsThere) {
   names.predict(driven(1.0));
   names.place(there, covariance);
   EXPECT_LT((names.pose().vector() - there.vector()).norm(), 1e-6);
-  // AND what was known of the place before adds to it
+  // AND the previous knowledge of the pose reduces the covariance
   EXPECT_LT((names.covariance() - covariance).norm(), 0.3 * covariance.norm());
 }
 

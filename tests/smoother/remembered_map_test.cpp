@@ -1,4 +1,4 @@
-// What a saved map says, as a term of the graph.
+// A saved map as a term of the graph.
 
 #include "slam/smoother/remembered_map.hpp"
 
@@ -11,7 +11,7 @@
 namespace azimuth {
 namespace {
 
-/// Of so many landmarks about a robot, with errors that all have in common.
+/// A map of `landmarks` landmarks around a robot, with fully correlated errors.
 MapSnapshot some_map(int landmarks, double sigma_m = 0.05) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
@@ -38,7 +38,7 @@ MapSnapshot some_map(int landmarks, double sigma_m = 0.05) {
   return map;
 }
 
-/// Joint covariance of the newest pose and all landmarks, in the map.
+/// Joint covariance of the newest pose and all landmarks, in the map frame.
 Eigen::MatrixXd covariance_in_map(const Smoother& smoother, const std::vector<LandmarkId>& landmarks) {
   std::vector<Smoother::Unknown> unknowns{Smoother::PoseOf{smoother.graph().poses() - 1}};
   for (const LandmarkId id : landmarks) unknowns.push_back(Smoother::LandmarkOf{id});
@@ -84,7 +84,7 @@ TEST(RememberedMap, OfARobotThatIsAnywhereOnlyLandmarksAreKnown) {
 TEST(RememberedMap, ItsGradientIsThatOfItsEnergy) {
   const MapSnapshot map = some_map(4, 0.3);
   BearingGraph graph(SmootherSettings{}, {});
-  {  // the term alone: the motion to the robot hardly says anything
+  {  // The term alone: the motion to the robot's pose carries hardly any information.
     Smoother smoother{SmootherSettings{}};
     remember(map, Eigen::Matrix3d::Identity().eval(), smoother);
     graph = smoother.graph();
@@ -115,7 +115,7 @@ TEST(RememberedMap, BearingsCorrectItAndTheRobotInIt) {
   const Eigen::Matrix3d moved = Eigen::Vector3d(0.04, 0.04, 0.01).asDiagonal();
   names.remember(map, moved);
   const Eigen::Matrix3d before = names.covariance();
-  // GIVEN a robot that stands 0.1 m further on
+  // GIVEN a robot that is 0.1 m farther ahead
   const Pose2 T_map_body = map.T_map_body * Pose2{0.1, 0.0, 0.0};
   BearingSet set;
   for (const MapLandmark& landmark : map.landmarks) {

@@ -1,4 +1,4 @@
-// What a smoother makes of its rig: how noisy bearings and odometry are, and which of the rig's values a drive
+// The smoother's estimate of its rig: the noise of bearings and odometry, and the values of the rig that a drive
 // contradicts.
 
 #include "slam/smoother/rig_belief.hpp"
@@ -17,7 +17,7 @@ constexpr CalibrationPriors kSaid{.sigma_scale_turn = 0.01, .sigma_camera_yaw_ra
 constexpr RigDoubts kDoubts{.if_wrong = {.sigma_scale_turn = 0.3, .sigma_camera_yaw_rad = 0.1, .sigma_lag_s = 0.3},
                             .noise = false};
 
-/// Of a drive whose bearings and odometry are so many times as noisy as is said.
+/// A smoother whose bearings and odometry are noisier than stated by the factors `bearings` and `odometry`.
 Smoother noisy(std::uint64_t seed, double bearings, double odometry, const CalibrationPriors& calibration = {}) {
   const NamedDrive drive = named_drive({.seed = seed, .images = 150});
   SmootherSettings settings;
@@ -36,7 +36,7 @@ struct Ratios {
   double bearings = 1.0, odometry = 1.0;
 };
 
-/// What is left depends on what each is taken for, so that it takes some rounds.
+/// Each ratio depends on the other, so the estimate needs several rounds.
 Ratios found(Smoother smoother) {
   Ratios all;
   for (int round = 0; round < 10; ++round) {
@@ -66,7 +66,7 @@ TEST(NoiseFound, IsThatOfBearingsAndOfOdometryEach) {
   }
 }
 
-// What is left is as many residuals as there are beyond the unknowns, whatever the signs that are drawn.
+// The degrees of freedom equal the number of residuals minus the number of unknowns.
 TEST(NoiseFound, CountsTheUnknownsOnce) {
   const Smoother smoother = noisy(1, 1.0, 1.0);
   const BearingGraph& graph = smoother.graph();
@@ -75,7 +75,7 @@ TEST(NoiseFound, CountsTheUnknownsOnce) {
               0.05 * residuals);
 }
 
-// A scale that is off shows over long ways more than from image to image.
+// A scale error has a larger effect over long paths than from image to image.
 TEST(NoiseFound, IsLargerOverLongWaysWhereErrorsAddUp) {
   const NamedDrive drive = named_drive({.images = 200, .scale_turn = 1.1});
   Smoother smoother(SmootherSettings{});
@@ -92,7 +92,7 @@ TEST(NoiseFound, SaysNothingOfADriveTooShortToTell) {
   EXPECT_EQ(smoother.odometry_noise(4).told, 0.0);
 }
 
-// As a graph that was told so from the start.
+// The result equals that of a graph with the scaled noise from the start.
 TEST(ScaledNoise, GivesThePosesAndTheCovarianceOfThatNoise) {
   Smoother there_and_back = noisy(3, 0.5, 2.0);
   there_and_back.scale_noise(0.5, 2.0);
@@ -150,12 +150,12 @@ TEST(Rig, IsBelievedAgainOnceTheDriveNoLongerContradictsIt) {
   EXPECT_EQ(judged(smoother, wrong, rig_belief(kSaid), kDoubts).sigma, rig_belief(kSaid).sigma);
 }
 
-// A camera whose azimuths grow the other way is no camera that is askew.
+// A mirrored camera, whose azimuths grow the other way, cannot be explained by a yaw error.
 TEST(Rig, IsGivenUpOnWhereNoRigLikeItFits) {
   Smoother smoother(with_rig());
   judged_drive({.images = 150, .camera_yaw_rad = 0.6}, smoother);
   RigBelief wrong = rig_belief(kSaid);
-  wrong.sigma[calibration::yaw] = 10.0 * kDoubts.if_wrong.sigma_camera_yaw_rad;  // lets it go where it wants to
+  wrong.sigma[calibration::yaw] = 10.0 * kDoubts.if_wrong.sigma_camera_yaw_rad;  // leaves the yaw practically free
   wrong.doubted[calibration::yaw] = true;
   ASSERT_TRUE(change(smoother, rig_belief(kSaid), wrong));
   smoother.optimise(200);
@@ -164,10 +164,10 @@ TEST(Rig, IsGivenUpOnWhereNoRigLikeItFits) {
   EXPECT_TRUE(given_up.is_beyond_repair());
   EXPECT_EQ(given_up.sigma, rig_belief(kSaid).sigma);
   EXPECT_FALSE(given_up.doubts_any());
-  EXPECT_EQ(judged(smoother, given_up, rig_belief(kSaid), kDoubts).sigma, given_up.sigma);  // and stays so
+  EXPECT_EQ(judged(smoother, given_up, rig_belief(kSaid), kDoubts).sigma, given_up.sigma);  // and the decision persists
 }
 
-// What the rig calls exact is no unknown.
+// A value that the rig declares exact is not an unknown.
 TEST(Rig, IsNeverDoubtedWhereItIsExact) {
   Smoother smoother(SmootherSettings{});
   const NamedDrive drive = named_drive({.images = 100, .camera_yaw_rad = 0.08});

@@ -16,12 +16,12 @@ TEST(SharedPages, ACopySharesWhatNeitherHasChanged) {
   copy.edit(5) = 50;
   EXPECT_EQ(list[5], 5);
   EXPECT_EQ(copy[5], 50);
-  EXPECT_EQ(&copy[9], &list[9]);  // another page
+  EXPECT_EQ(&copy[9], &list[9]);  // in another page
 }
 
 RC_GTEST_PROP(SharedPagesProperty, CopiesAreLikeCopiesOfVectors,
               (const std::vector<std::tuple<bool, int, int>>& steps)) {
-  // Two lists and the vectors they stand for; each step appends to or changes one of them, or copies it over the other.
+  // Two lists and two vectors to compare with. Each step appends, changes an element, or copies one list to the other.
   std::array<Pages, 2> lists;
   std::array<std::vector<int>, 2> plain;
   for (const auto& [which, what, value] : steps) {

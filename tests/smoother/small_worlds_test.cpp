@@ -1,4 +1,4 @@
-// Worlds so small that the optimum is known, and those in which little can be known.
+// Worlds with a known optimum, and worlds that determine little.
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -29,7 +29,7 @@ SmootherSettings to_the_end_without_kernel() {
 
 TEST(SmallWorlds, TwoBearingsCrossAtTheLandmark) {
   SmootherSettings settings = to_the_end_without_kernel();
-  settings.inverse_depth_sigma_per_m = 1e3;  // no opinion
+  settings.inverse_depth_sigma_per_m = 1e3;  // effectively no prior
   Smoother smoother(settings);
   const Eigen::Vector2d p(2.0, 3.0);
   const LandmarkId landmark = smoother.add_landmark(smoother.add_bearing(std::atan2(p.y(), p.x()), 0.01));
@@ -41,7 +41,7 @@ TEST(SmallWorlds, TwoBearingsCrossAtTheLandmark) {
 }
 
 TEST(SmallWorlds, HeadingIsTheWeightedMeanOfOdometryAndAFarBearing) {
-  // GIVEN something so far away that its bearing tells the heading alone, seen dead ahead and then 0.1 rad to the right
+  // GIVEN a landmark at infinity, which determines only the heading, seen straight ahead and then 0.1 rad to the right
   SmootherSettings settings = to_the_end_without_kernel();
   settings.inverse_depth_mean_per_m = 0.0;
   settings.inverse_depth_sigma_per_m = 1e-9;
@@ -50,27 +50,27 @@ TEST(SmallWorlds, HeadingIsTheWeightedMeanOfOdometryAndAFarBearing) {
   smoother.add_pose(drive(1.0, 0.0, 0.02));
   smoother.assign(smoother.add_bearing(-0.1, 0.01), landmark);
   smoother.optimise(50);
-  // THEN odometry's 0 and the two bearings' 0.1 count by their variances
+  // THEN odometry's 0 and the 0.1 of the two bearings are weighted by their variances
   const double expected_rad = 0.1 * 4.0 / (4.0 + 2.0);
   EXPECT_NEAR(smoother.newest_pose().heading_rad, expected_rad, 1e-8);
   EXPECT_NEAR(smoother.newest_covariance()(2, 2), 1.0 / (1.0 / 4e-4 + 1.0 / 2e-4), 1e-9);
 }
 
 TEST(SmallWorlds, BearingsThatContradictEachOtherPushNoLandmarkBeyondAllBounds) {
-  // GIVEN a landmark whose distance bearings told, not the prior, and whose chart goes along with the robot's path
+  // GIVEN a landmark without a distance prior, whose chart moves along with the path
   SmootherSettings settings;
   settings.charts_go_along = true;
   Smoother smoother(settings);
   smoother.add_pose(drive(0.5, 0.1, 0.1));
   const LandmarkId landmark = smoother.add_landmark(smoother.add_bearing(0.7, 0.02));
   smoother.use_prior(landmark, false);
-  // WHEN bearings from anywhere have its name
+  // WHEN bearings in random directions are assigned to it
   for (const double azimuth_rad : {-1.01, -2.96, 1.94, -1.65, -3.0, -2.16, 0.02, -1.52, 2.26, 3.0, -0.9, 0.05}) {
     SCOPED_TRACE(azimuth_rad);
     smoother.add_pose(drive(0.5, 0.0, 0.1));
     smoother.assign(smoother.add_bearing(azimuth_rad, 0.02), landmark);
     smoother.optimise();
-    // THEN it stays somewhere, and the pose is as uncertain as it is
+    // THEN the landmark stays finite, and the covariance of the pose is valid and not too small
     EXPECT_LT(std::abs(smoother.graph().landmark(landmark).inverse_distance_per_m), 100.0);
     const Eigen::Matrix3d P = smoother.newest_covariance();
     ASSERT_TRUE(P.allFinite());
@@ -106,7 +106,7 @@ TEST(SmallWorlds, OneBearingLeavesTheDistanceToThePrior) {
 
 TEST(SmallWorlds, WithoutBearingsThePathIsOdometry) {
   Smoother smoother(to_the_end_without_kernel());
-  EXPECT_TRUE(smoother.optimise().converged);  // of nothing at all
+  EXPECT_TRUE(smoother.optimise().converged);  // with no measurements
   EXPECT_EQ(smoother.newest_pose(), Pose2{});
   EXPECT_EQ(smoother.newest_covariance(), Eigen::Matrix3d::Zero());
   Pose2 expected;
@@ -121,7 +121,7 @@ TEST(SmallWorlds, WithoutBearingsThePathIsOdometry) {
 }
 
 TEST(SmallWorlds, WhatIsInfinitelyFarSettlesAboutInfinity) {
-  // GIVEN something seen under one direction from 30 m of straight road
+  // GIVEN a landmark seen in a constant direction along 30 m of straight path
   Smoother smoother(to_the_end_without_kernel());
   LandmarkId landmark = kOfNothing;
   for (int i = 0; i < 30; ++i) {
@@ -133,7 +133,7 @@ TEST(SmallWorlds, WhatIsInfinitelyFarSettlesAboutInfinity) {
       smoother.assign(bearing, landmark);
     smoother.optimise();
   }
-  // THEN its inverse distance is zero within what is known of it, whichever side
+  // THEN its inverse distance is zero within its standard deviation, on either side
   const Smoother::Unknown unknown = Smoother::LandmarkOf{landmark};
   const double sigma = std::sqrt(smoother.covariance({&unknown, 1})(1, 1));
   EXPECT_LT(sigma, 1e-3);
@@ -141,7 +141,7 @@ TEST(SmallWorlds, WhatIsInfinitelyFarSettlesAboutInfinity) {
 }
 
 TEST(SmallWorlds, BearingsThatDivergePutItBeyondInfinity) {
-  // GIVEN rays that part: no point explains them, but one beyond infinity does
+  // GIVEN diverging rays: no point explains them, but one beyond infinity does
   SmootherSettings settings = to_the_end_without_kernel();
   settings.inverse_depth_sigma_per_m = 100.0;
   Smoother smoother(settings);
@@ -190,7 +190,7 @@ TEST(SmallWorlds, ASimulatedDriveEndsWithinItsCovariance) {
     error.z() = wrap(error.z());
     sum += error.dot(smoother.newest_covariance().ldlt().solve(error));
   }
-  // 95 % of the means of 30 chi-squares of 3 degrees of freedom
+  // 95 % interval of the mean of 30 chi-squared values with 3 degrees of freedom
   EXPECT_GT(sum / kDrives, 2.1);
   EXPECT_LT(sum / kDrives, 4.0);
 }

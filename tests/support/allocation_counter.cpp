@@ -12,7 +12,7 @@ std::size_t azimuth::allocations() { return counted; }
 
 #if defined(AZIMUTH_ADDRESS_SANITIZER) || defined(AZIMUTH_THREAD_SANITIZER)
 
-// The sanitizers own malloc and offer a hook; its header is not installed with every compiler.
+// The sanitizers replace malloc and offer a hook. Not every compiler installs the header that declares the hook.
 extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*on_malloc)(const volatile void*, std::size_t),
                                                          void (*on_free)(const volatile void*));
 
@@ -24,7 +24,7 @@ void on_free(const volatile void*) {}
 
 #else
 
-// Definitions in the program go before those of the C library, which keeps its own under these names.
+// Definitions in the program take precedence over those of the C library, which also exports its own as __libc_*.
 extern "C" {
 void* __libc_malloc(std::size_t size);                           // NOLINT(bugprone-reserved-identifier)
 void* __libc_calloc(std::size_t number, std::size_t size);       // NOLINT(bugprone-reserved-identifier)

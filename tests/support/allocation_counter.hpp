@@ -1,11 +1,11 @@
 #pragma once
-// Counts every allocation of the process, whether by operator new or, as Eigen does, by malloc.
+// Counts every allocation of the process, by operator new or (as Eigen does) by malloc.
 
 #include <cstddef>
 
 namespace azimuth {
 
-/// Allocations of this thread since the program started.
+/// Number of allocations of this thread since the program started.
 std::size_t allocations();
 
 }  // namespace azimuth

@@ -25,7 +25,7 @@ BatchProblem::Normal BatchProblem::normal() const {
   Normal normal;
   normal.gradient.setZero(rows_);
   std::vector<Eigen::Triplet<double>> triplets;
-  // A row of derivatives by some unknowns, in standard deviations.
+  // One non-zero derivative in a row of the Jacobian, divided by the standard deviation of the residual.
   struct Entry {
     Eigen::Index row;
     double value;

@@ -1,6 +1,6 @@
 #pragma once
-// The same sum of energies as a BearingGraph's, by other means: one sparse matrix, put together anew for each step.
-// Slow and plain, to compare with.
+// Minimises the same sum of energies as a BearingGraph with a different method: one sparse matrix, assembled anew in
+// each step. The solver is slow and simple; the tests compare the smoother with it.
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -9,11 +9,11 @@
 
 namespace azimuth {
 
-/// Unknowns: each pose but the first, (along, left, turn), then each landmark that has bearings, (alpha, rho) and its
-/// tangent when it has elevations, then the calibrations that are unknown.
+/// Unknowns: for each pose except the first (along, left, turn); for each landmark with bearings (alpha, rho), and its
+/// elevation tangent if it has elevations; then the unknown calibrations.
 class BatchProblem {
  public:
-  /// Measurements, associations and values of the moment; the graph must outlive it.
+  /// Takes the current measurements, associations and values of the graph; the graph must outlive this object.
   BatchProblem(const BearingGraph& graph, const SmootherSettings& settings);
 
   struct Normal {
@@ -24,8 +24,8 @@ class BatchProblem {
   Normal normal() const;
   double energy() const { return normal().energy; }
   void move(const Eigen::VectorXd& step);
-  /// Gauss-Newton until no step is longer than `tolerance`, damped when the energy would rise. Steps taken; -1: it did
-  /// not end.
+  /// Runs Gauss-Newton until no step is longer than `tolerance`, and damps the steps if the energy would rise. Returns
+  /// the number of steps, or -1 if the solver does not converge.
   int solve(double tolerance = 1e-9, int most_steps = 1000);
 
   const BearingGraph::Values& values() const { return values_; }
@@ -43,7 +43,7 @@ class BatchProblem {
   Eigen::Index rows_ = 0;
 };
 
-/// Largest difference of any pose's or landmark's coordinates.
+/// Largest difference between `a` and `b` in any coordinate of any pose or landmark.
 double largest_difference(const BearingGraph::Values& a, const BearingGraph::Values& b);
 
 }  // namespace azimuth

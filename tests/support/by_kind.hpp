@@ -1,12 +1,12 @@
 #pragma once
-// Runs whose bearings have names, as a front end would have them that tells kinds apart, but not things.
+// Runs whose bearings are named as by a front end that tells kinds of landmark apart, but not individual landmarks.
 
 #include "tests/support/drive_of.hpp"
 #include "tools/drive_fit/eye_tracks.hpp"
 
 namespace azimuth::test {
 
-/// Named by eye. Each landmark is one of `kinds`.
+/// The drive with names from name_by_eye(). Each landmark has one of `kinds` kinds.
 inline Drive seen_by_kind(const Run& run, const Rig& rig, Kind kinds = 4) {
   Drive drive = drive_of(run, rig);
   for (BearingSet& set : drive.sets)

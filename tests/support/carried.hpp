@@ -6,8 +6,8 @@
 
 namespace azimuth {
 
-/// A drive (a World or a Run) whose robot is picked up and set down again: it goes on as it does a while later, and
-/// neither camera nor odometer saw what lay between.
+/// A drive (a World or a Run) in which somebody picks the robot up and sets it down again. The drive continues with the
+/// samples from `skipped` later; neither camera nor odometer records the time in between.
 template <class Drive>
 Drive carried(Drive drive, Stamp when, Duration skipped) {
   std::optional<Pose2> T_odom_before;

@@ -14,7 +14,7 @@ namespace {
 constexpr double kRadius_m = 2.5;  // of each half of the eight
 constexpr int kFigures = 4;
 
-/// Two circles that touch in the middle, the left one counter-clockwise.
+/// Two circles that touch in the middle; the robot drives the left one counter-clockwise.
 Path figures_of_eight() {
   constexpr int kCorners = 48;
   Path path;
@@ -28,7 +28,7 @@ Path figures_of_eight() {
   return path;
 }
 
-/// One within each half, the others about them; each off its place by up to half a metre.
+/// One cone within each half of the eight and the others around it, each displaced by up to half a metre.
 std::vector<WorldLandmark> eight_cones(Random& random) {
   constexpr std::array<std::array<double, 2>, 8> kPlaces{
       {{0.2, 2.5}, {-0.2, -2.5}, {4.4, 4.6}, {-4.2, 4.2}, {4.6, 0.2}, {-4.5, -0.4}, {4.0, -4.4}, {-4.4, -4.6}}};
@@ -54,7 +54,7 @@ Run cone_drive(std::uint64_t seed) {
   drive.acceleration_m_per_s2 = 1.0;
   drive.max_turn_rate_rad_per_s = 1.5;
   scenario.drive = drive;
-  // A car's heading comes of its steering angle, which is not known well.
+  // The heading of a car comes from its steering angle, which is only roughly known.
   scenario.odometer.lambda_distance_m = 1e-3;
   scenario.odometer.lambda_rotation_rad = 2e-3;
   scenario.odometer.lambda_drift_rad2_per_m = 2e-3;
@@ -68,7 +68,7 @@ Run cone_drive(std::uint64_t seed) {
 
   Run run = simulated_run(scenario);
   run.name += "-" + std::to_string(seed);
-  // The sensor names what is of nothing after something; here it is drawn by itself.
+  // The simulated sensor names its clutter after a landmark. The clutter is drawn here instead, without names.
   Random clutter(seed + 1000000, RandomPurpose::bearings);
   for (BearingSet& set : run.bearings) {
     for (int i = clutter.poisson(0.1); i > 0; --i) {

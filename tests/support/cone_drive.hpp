@@ -1,5 +1,5 @@
 #pragma once
-// A small car among cones all alike.
+// A small car among identical cones.
 
 #include <cstdint>
 
@@ -7,9 +7,9 @@
 
 namespace azimuth {
 
-/// Fast figures of eight (1 to 2 m/s) among eight cones, seen by a camera that looks ahead (140 degrees) at 30 Hz, with
-/// wheel speed and steering as odometry; about a minute. Some cones are missed in an image, some bearings are of
-/// nothing. Names are kept, to judge by; those of nothing have none.
+/// Fast figures of eight (1 to 2 m/s) among eight cones, for about a minute. A camera that looks ahead (140 degrees)
+/// takes images at 30 Hz; wheel speed and steering give the odometry. An image misses some cones, and some bearings are
+/// clutter. Bearings of cones keep their names, for evaluation; clutter has none.
 Run cone_drive(std::uint64_t seed);
 
 }  // namespace azimuth

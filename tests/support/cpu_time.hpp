@@ -3,7 +3,7 @@
 
 namespace azimuth {
 
-/// Of the calling thread; with CLOCK_PROCESS_CPUTIME_ID, of all of them.
+/// CPU time of the calling thread; with CLOCK_PROCESS_CPUTIME_ID, CPU time of all threads.
 inline double cpu_time_s(clockid_t clock = CLOCK_THREAD_CPUTIME_ID) {
   timespec now{};
   clock_gettime(clock, &now);

@@ -1,12 +1,12 @@
 #pragma once
-// Tests on runs that are not shipped.
+// Support for tests that need runs which are not shipped.
 
 #include <filesystem>
 #include <gtest/gtest.h>
 
 #include "tests/support/places.hpp"
 
-/// Leaves the running test as skipped, visibly, when `name` is not in the folder of real runs.
+/// Skips the running test, with a message, if `name` is not in the folder of real runs.
 #define AZIMUTH_REQUIRE_DATA(name)                                                                         \
   do {                                                                                                     \
     if (!std::filesystem::exists(::azimuth::test::data_folder() / (name)))                                 \

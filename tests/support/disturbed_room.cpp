@@ -18,13 +18,13 @@ namespace {
 constexpr double kShoulders_m = 0.45;
 constexpr double kNearest_m = 0.4;
 constexpr double kInRoom_m = 2.5;
-/// A person from the floor up: legs, jacket, head.
+/// One part of a person, from the floor up: legs, jacket, head.
 struct Layer {
   double low_m, high_m, width_m;
 };
 constexpr std::array<Layer, 3> kLayers{{{0.0, 0.85, 0.30}, {0.85, 1.45, kShoulders_m}, {1.45, 1.75, 0.18}}};
 
-/// What one pixel looks at.
+/// Direction in which one pixel looks.
 struct Ray {
   float azimuth_rad = std::numeric_limits<float>::quiet_NaN();
   float elevation_rad = 0.0F;
@@ -77,7 +77,7 @@ class DisturbedRoom {
     return trouble_.dimmest + (1.0 - trouble_.dimmest) * (0.5 + 0.5 * std::cos(phase));
   }
 
-  /// From 0 at the bright end of the room to 1 at the dark one, by where what the pixel shows is.
+  /// Darkness at the place that the pixel shows: 0 at the bright end of the room, 1 at the dark end.
   double darkness_at(const Pose2& T_world_camera, const Ray& ray) const {
     const double away_m = trouble_.ceiling_m > 0.0
                               ? trouble_.ceiling_m / std::tan(std::max(static_cast<double>(ray.elevation_rad), 0.2))

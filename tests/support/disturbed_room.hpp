@@ -1,6 +1,6 @@
 #pragma once
-// A room as it is when others use it: lights that change, a side that is darker, people. Painted into the images of a
-// recorded drive, where the truth says the camera was; the same images every time.
+// A room in use: the light changes, one side is darker, people walk through it. The disturbance is painted into the
+// images of a recorded drive at the true poses of the camera, and is the same in every repetition.
 
 #include <vector>
 
@@ -12,38 +12,39 @@
 
 namespace azimuth::test {
 
-/// Somebody who walks there and back between two places, and stands at each for a while.
+/// A person who walks back and forth between two places and rests at each for a while.
 struct Walker {
-  Eigen::Vector2d from_m, to_m;  ///< world
+  Eigen::Vector2d from_m, to_m;  ///< end points in the world
   double speed_m_per_s = 0.8;
   double rest_s = 6.0;
   double phase_s = 0.0;
-  int red = 150, green = 30, blue = 35;  ///< of the jacket
+  int red = 150, green = 30, blue = 35;  ///< colour of the jacket
 
   Eigen::Vector2d at(double t_s) const;
 };
 
-/// What is wrong with the room.
+/// The disturbances of the room.
 struct RoomTrouble {
-  double dimmest = 1.0;           ///< the light goes down to this share and up again, image by image
-  double dimming_images = 150.0;  ///< from bright to bright
-  double darker_side = 1.0;       ///< light at the end of the room in the direction `dark_towards_rad`, in the world
+  double dimmest = 1.0;           ///< lowest share of the light; the light falls to it and rises again, image by image
+  double dimming_images = 150.0;  ///< period of the change of light, in images
+  /// Share of the light at the end of the room in the direction `dark_towards_rad` (world).
+  double darker_side = 1.0;
   double dark_towards_rad = 0.0;
-  double room_m = 7.0;  ///< from the middle of the world to that end
-  /// Height of what is looked at above the camera, where it is a ceiling; 0: things that stand a few metres away.
+  double room_m = 7.0;  ///< from the origin of the world to the dark end
+  /// Height of the observed ceiling above the camera; 0: the camera sees objects a few metres away.
   double ceiling_m = 0.0;
   std::vector<Walker> people = {};
 
   bool is_none() const { return dimmest == 1.0 && darker_side == 1.0 && people.empty(); }
 };
 
-/// The trouble as the camera of this run sees it: its rig and its truth say what is where.
+/// Paints the trouble as the camera of this run sees it. The rig and the truth of the run define the geometry.
 Spoil spoil_of(const RoomTrouble& trouble, const Run& run, const CameraRig& rig);
 
-/// The run with an odometer that counts `factor` times the distance driven.
+/// The run with odometry that reports `factor` times the driven distance.
 Run with_scaled_odometry(Run run, double factor);
 
-/// The run with an odometer whose noise is drawn anew, as much as the rig says, with a reading at each true pose.
+/// The run with newly drawn odometry noise as specified by `rig`, and one reading at each true pose.
 Run with_drawn_odometry(Run run, const OdometryRig& rig, unsigned seed);
 
 }  // namespace azimuth::test

@@ -1,5 +1,5 @@
 #pragma once
-// A run as the drive that the commands would hear.
+// Converts a run to the drive that the commands would receive.
 
 #include <memory>
 

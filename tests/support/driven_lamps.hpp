@@ -1,5 +1,6 @@
 #pragma once
-// What tests of estimators below lamps share: one on its way through a run, and maps that are to stay as they are.
+// Shared by the tests of estimators under lamps: an estimator that is driven through a run, and a check that a map
+// stays unchanged.
 
 #include <algorithm>
 #include <cstddef>
@@ -11,7 +12,7 @@
 
 namespace azimuth::test {
 
-/// An estimator on its way through a run below lamps.
+/// An estimator that is driven through a run under lamps.
 template <class Estimator>
 struct DrivenLamps {
   DrivenLamps(const LampRun& a_run, Estimator an_estimator, std::size_t first = 0)
@@ -38,7 +39,7 @@ struct DrivenLamps {
   std::size_t next;
 };
 
-/// Lamps and their covariance are those of the map to the last bit. How often they were seen may have been counted on.
+/// Expects that lamps and their covariance equal those of the map bit by bit. The numbers of sightings may differ.
 inline void expect_same_lamps(const MapSnapshot& kept, const MapSnapshot& map) {
   ASSERT_EQ(kept.landmarks.size(), map.landmarks.size());
   for (std::size_t i = 0; i < map.landmarks.size(); ++i) {

@@ -20,7 +20,7 @@ constexpr double kSpeed_m_s = 0.4, kMostTurn_rad_s = 0.9;
 constexpr double kBase_m = 0.33, kPerCount_m = 2.0 * kPi * 0.0975 / 19105.0;
 constexpr double kSigmaBearing_rad = 0.0175, kSeenWithin_m = 6.0, kDetected = 0.8, kJitter_s = 0.004;
 constexpr int kLandmarks = 14;
-// Noise of the speeds that lasts: as much, over metres, as the rig says of noise that does not.
+// Correlated noise of the speeds. Over metres it adds up to as much as the uncorrelated noise that the rig states.
 constexpr double kLasts_s = 1.0, kSigmaSpeed_m_s = 0.0084, kSigmaTurn_rad_s = 0.0132;
 constexpr double kNextDoor_m = 18.0, kWall_m = 9.0, kCarried_m_s = 1.0, kCarriedTurn_rad_s = 0.4;  // along x
 constexpr double kSlipInTurns = 0.02, kCarpetFrom_m = 2.0, kCarpetPulls_rad_per_m = 0.01;
@@ -39,7 +39,7 @@ lambda_drift_rad2_per_m = 1e-3
 
 using Numbers = RandomNumbers<Xoshiro>;
 
-/// Noise that lasts (Ornstein and Uhlenbeck).
+/// Correlated noise (Ornstein-Uhlenbeck process).
 class Lasting {
  public:
   double next(double sigma, Numbers& numbers) {
@@ -52,7 +52,7 @@ class Lasting {
   double value_ = 0.0;
 };
 
-/// Of the standard deviation, with the tails of Laplace's distribution.
+/// Noise of standard deviation `sigma` with the heavy tails of a Laplace distribution.
 double heavy_tailed(double sigma, Numbers& numbers) {
   const double u = numbers.uniform() - 0.5;
   return -std::copysign(sigma / std::sqrt(2.0) * std::log(1.0 - 2.0 * std::min(std::abs(u), 0.4999999)), u);
@@ -118,7 +118,7 @@ class Drive {
     }
   }
 
-  /// What the sensors say of this instant.
+  /// Records the sensor readings of this instant.
   void tell(Run& run, bool with_images) {
     if (tick_ % kTicksOfOdometry == 0) {
       run.odometry.push_back({.stamp = stamp(), .T_odom_body = T_odom_body_});
@@ -140,7 +140,7 @@ class Drive {
       const Eigen::Vector2d p = T_world_body_.position() + step_m * (to - T_world_body_.position()).normalized();
       T_world_body_ = {p.x(), p.y(), wrap(T_world_body_.heading_rad + turn_rad_s * kTick_s)};
     }
-    past_.clear();  // an image is of before or after
+    past_.clear();  // an image shows the world either before or after the carrying
   }
 
   void go(const Eigen::Vector2d& target) {
@@ -149,7 +149,7 @@ class Drive {
     const double turn_rad_s = std::clamp(1.5 * off_rad, -kMostTurn_rad_s, kMostTurn_rad_s);
     const double speed_m_s = kSpeed_m_s * std::max(0.15, std::cos(off_rad));
     const double noise = robot_.odometry_noise;
-    // What the wheels do, in counts, and what the robot does by them.
+    // Counts the wheel motion, then moves the robot with slip and noise.
     count(speed_m_s, turn_rad_s);
     double v = speed_m_s + speed_.next(noise * kSigmaSpeed_m_s, numbers_);
     double w =

@@ -13,7 +13,8 @@ namespace azimuth::test {
 namespace {
 
 constexpr double kPrecision = 0.99;
-// From what OpenCV calls a feature's size to a blur in pixels: half of it, but ORB's is the width of what it describes.
+// Factors from OpenCV's feature size to a blur in pixels: a half for most methods; ORB's size is the width of the
+// described patch.
 constexpr double kOpenCvScale = 0.5, kOrbScale = 1.6 / 31.0;
 
 cv::Ptr<cv::Feature2D> opencv_method(const std::string& which, int most) {
@@ -45,7 +46,7 @@ FeaturesFound found(SiftPerception& perception, const ImageView& image) {
   return features;
 }
 
-/// From every feature of the first to every one of the second.
+/// Descriptor distances from every feature of the first image to every feature of the second.
 cv::Mat distances(const FeaturesFound& first, const FeaturesFound& second, int norm) {
   cv::Mat result;
   if (first.places.empty() || second.places.empty()) return result;
@@ -64,7 +65,8 @@ class PairMatcher {
   PairMatcher(const FeatureMethod& method, const FeaturesFound& first, const FeaturesFound& second)
       : method_(method), second_(second), distances_(distances(first, second, method.norm)) {}
 
-  /// The feature of the second image that looks most like one of the first; its number and the ratio.
+  /// Number of the feature in the second image whose descriptor is nearest to feature `row` of the first, and the ratio
+  /// of its distance to that of the next nearest.
   std::pair<int, double> nearest(int row) const {
     const float* const away = distances_.ptr<float>(row);
     const int best = static_cast<int>(std::min_element(away, away + distances_.cols) - away);
@@ -101,7 +103,7 @@ void add_matches(const KnownRoom& room, const RoomPair& pair, const FeatureMetho
   }
 }
 
-/// As many as can be had, the surest first, of which enough are right.
+/// Accepts as many matches as possible, in the order of their ratio, such that the precision reaches kPrecision.
 void choose_ratio(std::vector<Match>& matches, MatchScore& score) {
   std::ranges::stable_sort(matches, std::less{}, &Match::ratio);
   int right = 0;

@@ -12,8 +12,8 @@
 namespace azimuth {
 namespace {
 
-constexpr double kSigmaBearing_rad = 0.0087;  // SPEC I.3, set 2
-constexpr double kLookAlikeSigma = 12.0;      // between two features that look alike
+constexpr double kSigmaBearing_rad = 0.0087;  // mathematics I.3, set 2
+constexpr double kLookAlikeSigma = 12.0;      // descriptor noise between two features that look alike
 
 Scenario room_full_of_features(std::uint64_t seed, const FeatureWorldSettings& settings) {
   Scenario scenario = lab(seed, 2);
@@ -43,7 +43,7 @@ class Dresser {
     }
   }
 
-  /// Takes the names away and gives looks instead; returns the names by azimuth.
+  /// Replaces the names by descriptors, adds clutter, and returns the names by azimuth.
   std::unordered_map<double, Identity> dress(BearingSet& set) {
     std::unordered_map<double, Identity> names;
     for (Bearing& bearing : set.bearings) {

@@ -1,5 +1,5 @@
 #pragma once
-// A simulated drive among features that have looks instead of names, with the truth about which is which.
+// A simulated drive among features that have descriptors instead of names, with the true feature of each bearing.
 
 #include <cstdint>
 #include <unordered_map>
@@ -11,20 +11,20 @@
 namespace azimuth {
 
 struct FeatureWorldSettings {
-  double repeatability = 0.7;              ///< share of the features in reach that an image shows
-  double looks_sigma = 9.0;                ///< noise of each value of a descriptor, from view to view
-  double look_alikes = 0.1;                ///< share of the features that look nearly like another
-  double clutter_per_image = 8.0;          ///< features never seen again
-  double heading_drift_rad2_per_m = 5e-5;  ///< of the odometry
+  double repeatability = 0.7;              ///< probability that an image shows a feature within range
+  double looks_sigma = 9.0;                ///< standard deviation of each descriptor value from view to view
+  double look_alikes = 0.1;                ///< share of the features that look nearly like another feature
+  double clutter_per_image = 8.0;          ///< number of features per image that never reappear
+  double heading_drift_rad2_per_m = 5e-5;  ///< drift of the odometry's heading
 };
 
-/// A run whose bearings carry descriptors and neighbours, in a lab with features all along its walls.
+/// A run in a lab with features along all walls. Its bearings carry descriptors and neighbours.
 struct FeatureWorld {
   Run run;
-  /// By stamp and azimuth of each bearing: the feature it is of; absent for clutter.
+  /// The true feature of each bearing, by stamp and azimuth; clutter has no entry.
   std::unordered_map<std::int64_t, std::unordered_map<double, Identity>> truth;
 
-  /// Of the sightings: how many are not of what most sightings of their landmark are of.
+  /// Number of sightings whose true feature differs from the most frequent true feature of their landmark.
   std::size_t wrong(const std::vector<SightingRecord>& sightings) const;
 };
 

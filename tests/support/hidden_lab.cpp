@@ -10,7 +10,7 @@
 namespace azimuth {
 namespace {
 
-// Inside the way that coloured_lab() drives, which is 2 m from the walls.
+// The block lies inside the path of coloured_lab(), which runs 2 m from the walls.
 const Rectangle kBlock{{4.5, 4.0}, {9.5, 6.0}};
 
 /// The length of the segment from `a` to `b` that lies within the rectangle.
@@ -30,7 +30,8 @@ double length_within(const Rectangle& rectangle, const Eigen::Vector2d& a, const
   return std::max(0.0, to - from) * way.norm();
 }
 
-/// A landmark on the block itself is seen through as much of it as separates it from the nearest side.
+/// Depth of `p` below the nearest side of the rectangle; 0 outside it. Allows a landmark on the block itself to be
+/// seen.
 double depth_within(const Rectangle& rectangle, const Eigen::Vector2d& p) {
   return std::max(0.0, std::min((p - rectangle.low_m).minCoeff(), (rectangle.high_m - p).minCoeff()));
 }
@@ -38,7 +39,7 @@ double depth_within(const Rectangle& rectangle, const Eigen::Vector2d& p) {
 }  // namespace
 
 void hide_behind(const Rectangle& block, Run& run) {
-  constexpr double kSideways = 1.5;  // seen aslant
+  constexpr double kSideways = 1.5;  // allows a view at an angle to the side
   std::vector<StampedPose> truth;
   for (const TruthPose& pose : run.truth) truth.push_back({pose.stamp, pose.T_world_body});
   for (BearingSet& set : run.bearings) {

@@ -1,5 +1,5 @@
 #pragma once
-// A lab whose landmarks have no names, as it is: what stands in its middle hides what stands behind.
+// A lab with nameless landmarks and occlusion: a block in the middle hides the landmarks behind it.
 
 #include <cstdint>
 
@@ -8,11 +8,12 @@
 
 namespace azimuth {
 
-/// Leaves out the bearings of landmarks that cannot be seen past `block`, and of those without a name. Landmarks within
-/// it are seen from the side that is nearest to them.
+/// Removes bearings of landmarks that `block` hides, and bearings without a name. A landmark within the block stays
+/// visible from its nearest side.
 void hide_behind(const Rectangle& block, Run& run);
 
-/// coloured_lab() with a block in its middle; about nine bearings an image are left. Names are kept, to judge by.
+/// coloured_lab() with a block in its middle, which leaves about nine bearings per image. Bearings keep their names,
+/// for evaluation.
 Run hidden_lab(std::uint64_t seed, int laps = 1);
 
 }  // namespace azimuth

@@ -47,7 +47,7 @@ double HindsightDrive::hear_s() {
 bool HindsightDrive::start_again() {
   MapSnapshot map;
   if (!estimator_->save_map(map)) return false;
-  constexpr double kNotMoved = 1e-4;  // metres, radians
+  constexpr double kNotMoved = 1e-4;  // [m] and [rad]
   estimator_ = make_smoother_estimator(
       rig_, settings_,
       {.map = &map, .pose_known = true, .sigma_position_m = kNotMoved, .sigma_heading_rad = kNotMoved});

@@ -1,6 +1,6 @@
 #pragma once
-// A simulated drive among named landmarks through the smoother, image by image and without a stage around it: what an
-// image costs is the estimator's own. The rig knows the odometer's scale of distance.
+// Drives the smoother estimator image by image through a simulated world with named landmarks. No estimator stage is
+// involved, so the measured cost of an image is the estimator's own. The rig knows the odometer's scale of distance.
 
 #include <cstddef>
 #include <memory>
@@ -20,23 +20,24 @@ class HindsightDrive {
 
   const World& world() const { return world_; }
   bool done() const { return online_.size() == world_.bearings.size(); }
-  /// Of the next image; requires !done().
+  /// Stamp of the next image; requires !done().
   Stamp next() const { return world_.bearings[online_.size()].stamp; }
-  /// The next image, what it costs the thread in seconds until pose and map are told; requires !done().
+  /// Processes the next image and returns the CPU time of the thread until pose and map are available [s]; requires
+  /// !done().
   double hear_s();
 
-  /// The estimator gives way to another one that starts from its map; false: there is none worth it.
+  /// Replaces the estimator by a new one that starts from its map; false: the map is not worth saving.
   bool start_again();
 
   const SmootherEstimator& estimator() const { return static_cast<const SmootherEstimator&>(*estimator_); }
   const BearingGraph& graph() const { return estimator().mapper().smoother().graph(); }
 
   struct Errors {
-    double rmse_m = 0.0;  ///< of the position, after the rigid motion that fits best
-    double anees = 0.0;   ///< relative to the first image, 3 when what is said of the errors is true
+    double rmse_m = 0.0;  ///< RMSE of the position after the best rigid alignment
+    double anees = 0.0;   ///< relative to the first image; 3 if the stated covariances are correct
   };
-  Errors online() const { return errors_of(online_); }  ///< of what was said at each image until now
-  Errors hindsight() const;                             ///< of what is known of each of them now
+  Errors online() const { return errors_of(online_); }  ///< errors of the live estimate at each image
+  Errors hindsight() const;                             ///< errors of all poses as estimated now
 
  private:
   Errors errors_of(const std::vector<EstimateRecord>& estimates) const;

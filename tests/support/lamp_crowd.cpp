@@ -17,7 +17,7 @@ void dazzle(LampRun& run, int count, unsigned seed) {
     for (int k = 0; k < count; ++k)
       set.bearings.push_back(
           {.azimuth_rad = draws.uniform(-kPi, kPi), .elevation_rad = std::asin(draws.uniform(0.35, 1.0))});
-    std::ranges::sort(set.bearings, {}, &Bearing::azimuth_rad);  // lamps come among the others
+    std::ranges::sort(set.bearings, {}, &Bearing::azimuth_rad);  // mixes the lamps with the reflections
   }
 }
 

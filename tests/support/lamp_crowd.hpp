@@ -1,5 +1,5 @@
 #pragma once
-// Reflections among lamps, or instead of them, and what an estimator makes of such a drive.
+// Drives with reflections among the lamps, or instead of lamps, and the estimator's result on such drives.
 
 #include <string_view>
 
@@ -8,22 +8,22 @@
 
 namespace azimuth {
 
-/// What is seen beside the lamps.
+/// Reflections that the camera sees in addition to the lamps.
 struct LampCrowd {
   const char* title;
-  bool lamps;                 ///< are on
-  int anywhere;               ///< reflections of an image, never twice in the same place
-  bool on_the_robot = false;  ///< one that is fixed to it: what its own lamp throws on a guard
+  bool lamps;                 ///< whether the lamps are on
+  int anywhere;               ///< number of reflections per image, each at a new random place
+  bool on_the_robot = false;  ///< adds a reflection fixed to the robot, such as its own lamp on a guard
 };
-/// simulated_hall() of this seed with the crowd in all of its images.
+/// simulated_hall() of this seed, with the crowd in each image.
 LampRun crowded_hall(const LampCrowd& crowd, int seed);
 
-/// What came of one drive, or of several together.
+/// Result of one drive, or of several drives together.
 struct CrowdOutcome {
   int runs = 0, images = 0, tracking = 0;
-  int lamps = 0, phantoms = 0;  ///< of the maps at the end
-  double mean_square_m2 = 0.0;  ///< of the position after the best rigid motion; of all images
-  double anees = 0.0;           ///< of the pose, 3 degrees of freedom, from the first pose on
+  int lamps = 0, phantoms = 0;  ///< mapped landmarks that are lamps and that are not, at the end
+  double mean_square_m2 = 0.0;  ///< mean squared position error over all images, after the best rigid alignment
+  double anees = 0.0;           ///< of the pose relative to the first pose, 3 degrees of freedom
   std::string_view reason;      ///< of the last estimate
 
   void add(const CrowdOutcome& other);

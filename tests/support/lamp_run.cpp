@@ -23,11 +23,11 @@ constexpr int kImages = 320;
 constexpr double kStride_m = 0.265;
 constexpr double kClutterPerImage = 0.4;
 constexpr std::size_t kLastImages = 25;
-constexpr double kSightingIsOf_rad = 0.06;  // nearer than this to where a lamp truly is
+constexpr double kSightingIsOf_rad = 0.06;  // a sighting within this angle of a lamp's true direction is of this lamp
 
 MotionNoise noise_of(const OdometryRig& rig) { return {rig.lambda_distance_m, rig.lambda_rotation_rad, 0.0, 0.0}; }
 
-/// Where the robot is on its ellipse after so many strides.
+/// Pose of the robot on its ellipse at image number `image`.
 Pose2 pose_at(int image) {
   constexpr double kHalfWidth_m = 7.0, kHalfDepth_m = 5.0;
   double t = -kPi / 2.0;
@@ -83,17 +83,18 @@ void drive_along(LampRun& run, std::span<const Pose2> path, RandomDraws& draws) 
   }
 }
 
-/// How often each landmark was taken for each lamp.
+/// For each landmark: how often it was associated with each lamp.
 using Sightings = std::map<std::int64_t, std::map<int, int>>;
 
-/// The lamp that a landmark was mostly taken for; kClutter: it was not there.
+/// The lamp with which a landmark was most often associated; kClutter: the landmark did not exist.
 int lamp_meant(const Sightings& sightings, std::int64_t landmark) {
   const auto found = sightings.find(landmark);
   if (found == sightings.end()) return LampRun::kClutter;
   return std::ranges::max_element(found->second, {}, [](const auto& entry) { return entry.second; })->first;
 }
 
-/// Wrong is a landmark that used to be another lamp, and a new one for a lamp that was mapped already.
+/// An association is wrong if the landmark belongs to another lamp, or if it is new although its lamp was already
+/// mapped.
 void judge_recognition(const Sightings& before, std::int64_t landmark, int lamp, LampOutcome& outcome) {
   const int meant = lamp_meant(before, landmark);
   const bool was_mapped =
@@ -118,7 +119,7 @@ void judge_map(std::span<const LandmarkEstimate> map, const LampRun& run, const 
   }
 }
 
-/// `lamps_of_bearings` names the landmark that each bearing of the last image was used for; negative: none.
+/// `lamps_of_bearings` returns the landmark that each bearing of the last image was associated with; negative: none.
 LampOutcome drive(const LampRun& run, Estimator& estimator,
                   const std::function<std::span<const std::int64_t>()>& lamps_of_bearings) {
   LampOutcome outcome;
@@ -152,7 +153,7 @@ LampOutcome drive(const LampRun& run, Estimator& estimator,
   return outcome;
 }
 
-/// The lamp that a sighting from a known pose must be of.
+/// The lamp that a bearing from a known pose belongs to.
 int lamp_seen(const LampRun& run, const Pose2& pose, const Bearing& bearing) {
   const Viewpoint from(pose, *run.rig.camera.image.viewpoint_height_m);
   const LampSighting seen = make_sighting(bearing.azimuth_rad, kPi / 2.0 - bearing.elevation_rad, {1.0, 0.0, 1.0});
@@ -244,7 +245,7 @@ LampRun recorded_hall(const std::filesystem::path& folder) {
     }
     run.truth.push_back(read->truth[i].T_world_body);
     BearingSet& set = run.sets.emplace_back();
-    set.stamp = read->odometry[i].stamp;  // nothing may have been seen at that time
+    set.stamp = read->odometry[i].stamp;  // the image may be empty
     if (next < read->bearings.size() && read->bearings[next].stamp == set.stamp) set = read->bearings[next++];
     std::vector<int>& lamp_of = run.lamp_of.emplace_back();
     for (const Bearing& bearing : set.bearings) lamp_of.push_back(lamp_seen(run, run.truth.back(), bearing));

@@ -15,7 +15,7 @@ double driven_m(const Scenario& scenario, double minutes) {
   return 60.0 * minutes * std::get<SmoothDrive>(scenario.drive).speed_m_per_s;
 }
 
-/// Up one lane and down the next, and back along the wall.
+/// A path up one lane and down the next, and back along the wall.
 Path lanes(const LargeHall& hall) {
   const int count = 2 * static_cast<int>(std::lround(0.5 * hall.side_m / hall.lane_m));
   const double low_m = 0.5 * hall.lane_m, high_m = hall.side_m - low_m;

@@ -1,5 +1,5 @@
 #pragma once
-// Drives through a camera that leans.
+// Drives with a tilted camera.
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,8 @@ inline Rig rig_of_images(const Run& run) {
   return rig;
 }
 
-/// Landmarks above and below the camera by up to so much, seen through one that leans, by somebody who does not know.
+/// The run seen through a tilted camera, with landmarks up to `highest_m` above or below it. The bearings are computed
+/// without knowledge of the tilt.
 inline Run seen_leaning(Run run, const CameraTilt& tilt, double highest_m) {
   const CameraModel camera(kUpright.axes(), kUpright.profile(), tilt);
   RandomNumbers<Xoshiro> random{Xoshiro(7)};
@@ -47,7 +48,7 @@ inline Run seen_leaning(Run run, const CameraTilt& tilt, double highest_m) {
   return run;
 }
 
-/// By bearings as good as those of images are.
+/// A lab run with bearings as precise as those from images.
 inline Run driven_with_good_images(std::uint64_t seed) {
   Scenario scenario = lab(seed, 2);
   scenario.sensor.sigma_bearing_rad = 0.005;

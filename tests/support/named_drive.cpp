@@ -31,7 +31,7 @@ Motion measured(const Control& control) {
 NamedDrive named_drive(const NamedDriveOptions& options) {
   Numbers numbers{Xoshiro(options.seed)};
   NamedDrive drive{options, {}, {}};
-  // The drive begins at the origin and goes round a circle to its left.
+  // The drive starts at the origin and follows a circle to the left.
   const Eigen::Vector2d middle(0.0, options.radius_m);
   for (int i = 0; i < options.landmarks; ++i)
     drive.p_first_landmark.emplace_back(middle.x() + options.room_m * (numbers.uniform() - 0.5),
@@ -49,7 +49,7 @@ NamedDrive named_drive(const NamedDriveOptions& options) {
     }
     image.T_first_body = T_first_body;
     for (int k = 0; k < options.landmarks && static_cast<int>(image.bearings.size()) < options.most_bearings; ++k) {
-      const int number = (k + i) % options.landmarks;  // not always the same ones
+      const int number = (k + i) % options.landmarks;  // each image starts with another landmark
       const Eigen::Vector2d p = inverse(T_first_body) * drive.p_first_landmark[static_cast<std::size_t>(number)];
       const double azimuth_rad = std::atan2(p.y(), p.x());
       if (p.norm() > options.range_m || p.norm() < 0.3 || std::abs(azimuth_rad) > 0.5 * options.view_rad) continue;
@@ -65,7 +65,8 @@ NamedDrive named_drive(const NamedDriveOptions& options) {
 
 namespace {
 
-/// As of images one second apart: a lag moves both ends of a motion along it, one that grows the end more.
+/// Derivatives for images one second apart: a lag moves both ends of a motion along it, a growing lag moves the end
+/// more.
 ByLag by_lag(const Motion& motion, std::size_t image) {
   const Eigen::Vector3d went = motion.T_start_end.vector();
   ByLag by;
@@ -73,7 +74,7 @@ ByLag by_lag(const Motion& motion, std::size_t image) {
   return by;
 }
 
-/// As of a pixel 100 px from the centre.
+/// Derivative for a pixel 100 px from the image centre.
 ByCentre by_centre(double azimuth_rad) { return 0.01 * ByCentre(std::sin(azimuth_rad), -std::cos(azimuth_rad)); }
 
 }  // namespace

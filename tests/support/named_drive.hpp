@@ -1,5 +1,5 @@
 #pragma once
-// A simulated drive among landmarks that are told apart: motions and bearings with the noise that they say they have.
+// A simulated drive among named landmarks. The noise of motions and bearings equals the noise that they state.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -16,14 +16,14 @@ struct NamedDriveOptions {
   int images = 60;
   int landmarks = 15;
   double step_m = 0.2;
-  double radius_m = 3.0;  ///< of the circle that is driven, about the middle of the room
-  double room_m = 10.0;   ///< its side
-  double range_m = 6.0;   ///< seen up to
-  double view_rad = 6.3;  ///< width, about straight on
-  int most_bearings = 4;  ///< of an image
+  double radius_m = 3.0;  ///< of the circular path, whose centre is the middle of the room
+  double room_m = 10.0;   ///< side of the room
+  double range_m = 6.0;   ///< range of the camera
+  double view_rad = 6.3;  ///< width of the field of view, centred ahead
+  int most_bearings = 4;  ///< per image
   double sigma_rad = 0.02;
-  double outliers = 0.0;    ///< share of bearings that point anywhere
-  double scale_turn = 1.0;  ///< odometry says this times the turn
+  double outliers = 0.0;    ///< share of bearings with a random direction
+  double scale_turn = 1.0;  ///< factor on each turn that odometry reports
   double camera_yaw_rad = 0.0;
 };
 
@@ -33,26 +33,26 @@ struct NamedDrive {
     double azimuth_rad;
   };
   struct Image {
-    Pose2 T_first_body;  ///< true
-    Motion motion;       ///< from the image before, by odometry
+    Pose2 T_first_body;  ///< true pose
+    Motion motion;       ///< from the previous image, by odometry
     std::vector<Sighting> bearings;
   };
   NamedDriveOptions options;
-  std::vector<Eigen::Vector2d> p_first_landmark;  ///< true
+  std::vector<Eigen::Vector2d> p_first_landmark;  ///< true positions
   std::vector<Image> images;
 };
 NamedDrive named_drive(const NamedDriveOptions& options);
 
-/// Puts the images of a drive into a smoother one by one, each bearing to its landmark.
+/// Adds the images of a drive to a smoother one by one and assigns each bearing to its true landmark.
 class DriveFeeder {
  public:
   explicit DriveFeeder(const NamedDrive& drive)
       : drive_(drive), landmark_of_(static_cast<std::size_t>(drive.options.landmarks), kOfNothing) {}
 
   bool done() const { return next_ == drive_.images.size(); }
-  /// Adds the next image; nothing is solved.
+  /// Adds the next image without solving.
   void feed(Smoother& smoother);
-  /// By number in the drive; kOfNothing: not seen yet.
+  /// Landmark id by number in the drive; kOfNothing: not seen yet.
   LandmarkId landmark(int number) const { return landmark_of_[static_cast<std::size_t>(number)]; }
 
  private:

@@ -18,7 +18,7 @@ struct AfterPose {
   Motion motion;
 };
 
-/// A landmark is what most of its bearings are of.
+/// The true landmark of a mapped landmark is the one that most of its bearings belong to.
 NamelessMapScore map_score(const Nameless& nameless, const std::vector<Identity>& truth) {
   const Hypothesis& hypothesis = nameless.beam().best();
   NamelessMapScore score;
@@ -49,7 +49,7 @@ std::vector<PosePair> pairs_of(const Run& run, const std::vector<EstimateRecord>
   return pair_with_truth(estimated, truth);
 }
 
-/// Of the newest bearings; several of an image may have become one.
+/// Appends the true names of the newest bearings. The hypothesis may have merged several bearings of an image into one.
 void append_names(const BearingSet& set, const Hypothesis& hypothesis, std::vector<Identity>& truth) {
   const BearingGraph& graph = hypothesis.graph();
   for (BearingId id = hypothesis.first_bearing(hypothesis.images() - 1); id < graph.bearings(); ++id) {

@@ -1,6 +1,6 @@
 #pragma once
-// A run whose bearings have no names through the hypotheses, as it would go live, and what they say of the past at the
-// end. Names that a run has are used to judge, and for nothing else.
+// Processes a run without names with the hypotheses, as in live operation, and also returns the final estimate of the
+// past poses. Names in the run serve for evaluation only.
 
 #include <optional>
 #include <string>
@@ -11,35 +11,34 @@
 
 namespace azimuth {
 
-/// How the rig's view, noise and floors become a beam's.
+/// Converts the rig's field of view, noise and floors to settings of the beam.
 NamelessSettings nameless_settings_for(const Rig& rig);
 
 struct NamelessRun {
-  /// Of an image that was used.
+  /// An image that was used.
   struct Used {
-    std::size_t record = 0;  ///< in `online`
+    std::size_t record = 0;  ///< index in `online`
     Trust trust;
-    std::string trace;  ///< what the trust comes of
+    std::string trace;  ///< evidence that the trust is based on
   };
-  std::vector<EstimateRecord> online, smoothed, odometry;  ///< one for each bearing set
-  std::vector<Trust> trust;                                ///< likewise
+  std::vector<EstimateRecord> online, smoothed, odometry;  ///< one per bearing set
+  std::vector<Trust> trust;                                ///< one per bearing set
   std::vector<Used> used;
-  std::vector<double> step_us;  ///< CPU time of all threads, of each set that was used
+  std::vector<double> step_us;  ///< CPU time of all threads for each set that was used
   double energy = 0.0;
 };
 struct NamelessMapScore {
   int landmarks = 0, mapped = 0, duplicates = 0, assigned = 0, wrong = 0, bearings = 0;
 };
 
-/// Online, smoothed, and what odometry alone says, with what it knows of itself.
+/// Returns the live estimates, the smoothed estimates, and dead reckoning with its own covariance.
 NamelessRun nameless_run(const Run& run, const Rig& rig, const NamelessSettings& settings, Workers& workers,
                          NamelessMapScore& score);
 
-/// By how much each record is wrong, (x, y, heading) in the map, relative to the first one; nothing where there is no
-/// truth.
+/// Error of each record relative to the first one, (x, y, heading) in the map; no value where the run has no truth.
 std::vector<std::optional<Eigen::Vector3d>> errors_of_each(const Run& run, const std::vector<EstimateRecord>& records);
 
-/// The share of live poses that are said to be trusted, and the ANEES of these.
+/// Share of the live poses that are trusted, and their ANEES.
 struct TrustScore {
   double share = 0.0, anees = 0.0;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// What OpenCV's features are found in when they are compared with ours.
+// Images on which OpenCV's features are compared with Azimuth's.
 
 #include <opencv2/core.hpp>
 
@@ -7,7 +7,8 @@
 
 namespace azimuth::test {
 
-/// The working image that our front end makes of an image, in whole grey levels, and what of it is visible (255).
+/// The working image that Azimuth's front end makes of an image, in whole grey levels, and the mask of its visible
+/// pixels (255).
 struct OpenCvSquare {
   cv::Mat image, mask;
 };

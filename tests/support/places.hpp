@@ -1,15 +1,15 @@
 #pragma once
-// Where tests find what is not theirs: the source tree, and the runs that are not shipped.
+// Folders that tests read from: the source tree, and the runs that are not shipped.
 
 #include <filesystem>
 
 namespace azimuth::test {
 
-/// The top of the source tree, absolute.
+/// Top folder of the source tree, absolute.
 std::filesystem::path source_folder();
 
-/// The folder of real runs: environment variable AZIMUTH_DATA, else ../shared/data beside the source tree. It need not
-/// exist.
+/// Folder of the real runs: environment variable AZIMUTH_DATA if set, else ../shared/data beside the source tree. The
+/// folder may be missing.
 std::filesystem::path data_folder();
 
 }  // namespace azimuth::test

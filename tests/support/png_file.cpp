@@ -6,7 +6,7 @@
 namespace azimuth::test {
 namespace {
 
-/// CRC-32 as ISO 3309 has it.
+/// CRC-32 as defined by ISO 3309.
 std::uint32_t crc(std::span<const std::byte> bytes) {
   std::uint32_t sum = ~0U;
   for (const std::byte each : bytes) {
@@ -27,7 +27,7 @@ std::uint32_t adler(const std::vector<std::uint8_t>& bytes) {
 
 std::uint8_t part(std::size_t value, unsigned shift) { return static_cast<std::uint8_t>((value >> shift) & 0xFFU); }
 
-/// A zlib stream of stored blocks.
+/// A zlib stream of uncompressed blocks.
 std::vector<std::uint8_t> stored(const std::vector<std::uint8_t>& bytes) {
   constexpr std::size_t kMostOfABlock = 65535;
   std::vector<std::uint8_t> out{0x78, 0x01};

@@ -1,5 +1,5 @@
 #pragma once
-// PNG files by hand: every depth and colour type, without a library, and wrong ones.
+// Writes PNG files without a library: all bit depths and colour types, and invalid files.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,18 +12,18 @@
 
 namespace azimuth::test {
 
-/// The numbers of the format.
+/// Colour types, numbered as in the PNG format.
 enum class PngColour : std::uint8_t { gray = 0, rgb = 2, palette = 3, gray_alpha = 4, rgb_alpha = 6 };
 
-/// Chunks one after the other, each with its length and its sum.
+/// Appends chunks, each with its length and its checksum.
 class PngFile {
  public:
   PngFile(int width_px, int height_px, int depth, PngColour colour, bool interlaced = false);
 
   PngFile& chunk(std::string_view type, const std::vector<std::uint8_t>& content);
-  /// The rows as they stand in the file, each behind the number of its filter; not compressed.
+  /// Appends the rows as they are in the file, uncompressed, each preceded by its filter number.
   PngFile& pixels(const std::vector<std::uint8_t>& rows);
-  /// The last chunk, and with it the file.
+  /// Appends the last chunk and returns the file.
   std::vector<std::byte> end();
 
  private:
@@ -33,7 +33,7 @@ class PngFile {
   std::vector<std::byte> bytes_;
 };
 
-/// Of gray8 or rgb8, rows with or without padding.
+/// A PNG file of a gray8 or rgb8 image, whose rows may be padded.
 std::vector<std::byte> png_of(const ImageView& image);
 
 }  // namespace azimuth::test

@@ -1,5 +1,5 @@
 #pragma once
-// What GoogleTest prints for the enumerations that tests are run over, in place of their bytes.
+// Lets GoogleTest print the enumerations of parameterised tests by name instead of as bytes.
 
 #include <ostream>
 

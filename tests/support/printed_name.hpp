@@ -1,5 +1,5 @@
 #pragma once
-// Names of a parameterised test's cases, from what the parameters print as.
+// Names of the cases of a parameterised test, derived from the printed parameters.
 
 #include <cctype>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 
 namespace azimuth::test {
 
-/// A number, a text or something that has a PrintTo() or operator<< of its own. Texts without the quotes, and without
-/// the address that GoogleTest prints with a pointer.
+/// The text of a number, a text, or a type with its own PrintTo() or operator<<. Texts come without quotes and without
+/// the address that GoogleTest prints for a pointer.
 template <class T>
 std::string printed(const T& value) {
   if constexpr (std::is_convertible_v<T, std::string_view>)
@@ -24,7 +24,8 @@ std::string printed(const std::tuple<T...>& values) {
   return std::apply([](const T&... each) { return ((printed(each) + ' ') + ...); }, values);
 }
 
-/// Letters, digits and single underscores: all that GoogleTest takes. "-0.5" becomes "minus_0_5".
+/// Keeps letters, digits and single underscores, the only characters that GoogleTest accepts. "-0.5" becomes
+/// "minus_0_5".
 inline std::string as_test_name(std::string_view text) {
   std::string name;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -43,7 +44,7 @@ inline std::string as_test_name(std::string_view text) {
   return name;
 }
 
-/// For INSTANTIATE_TEST_SUITE_P: each case is called what its parameter prints as.
+/// Name generator for INSTANTIATE_TEST_SUITE_P: the printed parameter is the name of the case.
 struct PrintedName {
   template <class T>
   std::string operator()(const testing::TestParamInfo<T>& info) const {

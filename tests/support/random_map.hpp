@@ -8,11 +8,11 @@ namespace azimuth {
 struct RandomMapSettings {
   std::size_t landmarks = 8;
   std::size_t camera = 3;
-  std::size_t views_each = 0;  ///< more than 0: landmarks are known by their looks
+  std::size_t views_each = 0;  ///< greater than 0: descriptors identify the landmarks
   bool heights = false;
 };
 
-/// A map as an estimator might save it: everything correlated with everything, ids with gaps.
+/// A map as an estimator might save it, with full correlations and gaps between the ids.
 inline MapSnapshot random_map(unsigned seed, const RandomMapSettings& settings = {}) {
   RandomDraws draws(seed);
   MapSnapshot map;

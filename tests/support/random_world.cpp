@@ -21,7 +21,7 @@ double length_m(const Path& path) {
   return length;
 }
 
-/// Random legs, about as long together.
+/// A path of random legs with a total length of about `far_m`.
 Path wander_so_far(const Rectangle& area, double far_m, Random& random) {
   const double least_m = 0.5 * (area.high_m - area.low_m).minCoeff();
   const auto most_corners = static_cast<int>(std::ceil(far_m / least_m)) + 1;
@@ -59,7 +59,7 @@ void draw_robot(Scenario& scenario, Random& random) {
   sensor.detection_probability = random.uniform(0.7, 1.0);
 }
 
-/// Bearings of one image of the drive, on average.
+/// Mean number of bearings per image of the drive.
 double bearings_per_set(const Scenario& scenario) {
   const World world = simulate(scenario);
   double bearings = 0.0;

@@ -6,14 +6,14 @@
 namespace azimuth::test {
 namespace {
 
-constexpr double kEdge = 1.0;  // of white about the squares, in squares
+constexpr double kEdge = 1.0;  // white border around the squares, in squares
 constexpr double kBlack = 25.0, kWhite = 215.0, kWall = 120.0;
-constexpr int kSamples = 4;  // a pixel, each way
+constexpr int kSamples = 4;  // per pixel and axis
 
-/// (columns + 1) x (rows + 1) squares about the corners.
+/// Distance from the board's centre to its edge, in squares: `corners` + 1 squares per axis.
 double reach(int corners) { return 0.5 * (corners + 1); }
 
-/// What is seen along a ray.
+/// Grey level along a ray.
 double grey(const Chessboard& board, const Eigen::Isometry3d& T_board_camera, const Eigen::Vector3d& ray) {
   const Eigen::Vector3d from = T_board_camera.translation(), along = T_board_camera.linear() * ray;
   const double far = -from.z() / along.z();

@@ -1,5 +1,5 @@
 #pragma once
-// A drive with an image camera, and what its front end sees.
+// A drive with a rendered camera, and the bearings of its front end.
 
 #include "drivers/storage/run.hpp"
 #include "sim/world/scenario.hpp"
@@ -9,14 +9,14 @@
 
 namespace azimuth::test {
 
-/// Images are in a folder that lives as long as this does. Fails the test when they cannot be made.
+/// The images are in a temporary folder with the lifetime of this object. The test fails if they cannot be rendered.
 class RenderedDrive {
  public:
   RenderedDrive(const Scenario& scenario, const RenderSettings& settings, double most_s);
 
-  /// That of the camera that took them.
+  /// The rig of the camera that took the images.
   Rig rig() const;
-  /// With bearings in place of images, none of a named landmark, as somebody sees them who believes in `rig`.
+  /// The run with bearings in place of images, without names. The front end assumes the camera of `rig`.
   Run seen_by(const Rig& rig) const;
   Run seen() const { return seen_by(rig()); }
 

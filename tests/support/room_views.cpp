@@ -20,8 +20,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kToWall_m = 1.0, kToCylinder_m = 0.5;  // from a camera
-constexpr double kNear_px = 3.0, kMuchLarger = 2.0;     // of a square of 480 px
+constexpr double kToWall_m = 1.0, kToCylinder_m = 0.5;  // least distances of a camera
+constexpr double kNear_px = 3.0, kMuchLarger = 2.0;     // in a working square of 480 px
 constexpr double kHiddenBy_m = 0.05, kNever_m = std::numeric_limits<double>::infinity();
 
 bool is_free(const RenderScene& scene, const Vector2d& place) {
@@ -58,7 +58,7 @@ RoomImage rendered(Renderer& renderer, const RenderCamera& camera, const Pose2& 
   return image;
 }
 
-/// Along a ray of unit length, to the inside of the room's faces.
+/// Distance along a ray of unit length to the inner faces of the room.
 double to_faces_m(const RenderScene& scene, const Vector3d& from, const Vector3d& ray) {
   const Vector3d low{scene.room.low_m.x(), scene.room.low_m.y(), 0.0};
   const Vector3d high{scene.room.high_m.x(), scene.room.high_m.y(), scene.ceiling_m};
@@ -69,7 +69,7 @@ double to_faces_m(const RenderScene& scene, const Vector3d& from, const Vector3d
   return nearest_m;
 }
 
-/// To its side; what stands up looks at no lid that matters.
+/// Distance along a ray to the side of the cylinder. The lid is neglected.
 double to_side_m(const RenderCylinder& cylinder, const Vector3d& from, const Vector3d& ray) {
   const Vector2d away = from.head<2>() - cylinder.p_world_m, along = ray.head<2>();
   const double a = along.squaredNorm(), b = away.dot(along);

@@ -1,6 +1,5 @@
 #pragma once
-// Pairs of images of rendered rooms, and where in the second each point of the first is seen again, which only the
-// renderer can know.
+// Pairs of images of rendered rooms, with the true correspondence of each point of the first image in the second.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -22,13 +21,14 @@ struct RoomImage {
   ImageView view() const { return {format, bytes}; }
 };
 
-/// Two images from places of one room that are apart by what was asked for, with any headings.
+/// Two images from places of one room at the requested distance, with random headings.
 struct RoomPair {
   RoomImage first, second;
   double apart_m = 0.0;
 };
 
-/// `count` pairs from `least_m` to `most_m` apart, with a sensor's noise. `light` of the second, times the first's.
+/// `count` pairs at distances from `least_m` to `most_m`, with sensor noise. `light` is the brightness of the second
+/// image relative to the first.
 struct RoomPairs {
   CameraRig rig;
   RenderScene scene;
@@ -40,20 +40,20 @@ struct RoomPairSettings {
 };
 RoomPairs room_pairs(std::uint64_t seed, const RoomPairSettings& settings);
 
-/// A feature of the working square of an image.
+/// Position and scale of a feature in the working square of an image.
 struct ImagePlace {
   double x_px = 0.0, y_px = 0.0, sigma_px = 1.0;
 };
 
-/// Of which all is known.
+/// A room with known geometry.
 ///
 /// Thread contract: reentrant.
 class KnownRoom {
  public:
   explicit KnownRoom(const RoomPairs& room);
 
-  /// Where in the second image what is at `place` of the first is, how large it is there; nothing: it is hidden there,
-  /// or beyond the image's edge.
+  /// Position and scale in the second image of the point that the first image shows at `place`; no value if the point
+  /// is hidden there or outside the image.
   std::optional<ImagePlace> seen_again(const RoomPair& pair, const ImagePlace& place) const;
 
  private:
@@ -65,8 +65,8 @@ class KnownRoom {
   WorkingSquare square_;
 };
 
-/// Whether a feature of the second image is what is expected there: a few pixels away, or its scale, and about as
-/// large.
+/// Whether a feature of the second image agrees with the expected place: at most a few pixels (or the scale) away, and
+/// of similar scale.
 bool is_seen_at(const ImagePlace& expected, const ImagePlace& feature);
 
 }  // namespace azimuth::test

@@ -1,5 +1,5 @@
 #pragma once
-// A recorded run bearing set by bearing set, for what is measured without an estimator's stage.
+// Iterates over the bearing sets of a recorded run, for measurements without an estimator stage.
 
 #include <cstddef>
 
@@ -9,7 +9,7 @@
 
 namespace azimuth {
 
-/// Calls `each(set, step)` for every set, with the motion since the one before.
+/// Calls `each(set, step)` for every set, with the motion since the previous one.
 template <class Each>
 void for_each_step(const Run& run, const Rig& rig, const Each& each) {
   OdometryTrack track(rig.odometry);

@@ -1,14 +1,14 @@
 #pragma once
-// The run that ships with Azimuth.
+// The run that is shipped with Azimuth.
 
 #include <filesystem>
 
 namespace azimuth::test {
 
-/// runs/lab, absolute.
+/// Absolute path of runs/lab.
 std::filesystem::path shipped_run();
 
-/// Writes the first of its three laps to `folder`, which it makes: for those who look at no numbers.
+/// Writes the first of its three laps to `folder`, which is created; for tests that do not check numbers.
 void copy_one_lap(const std::filesystem::path& folder);
 
 }  // namespace azimuth::test

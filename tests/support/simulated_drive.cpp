@@ -18,7 +18,7 @@ Rig rig_of(const Scenario& scenario) {
   rig.odometry.sigma_lateral_m_per_sqrt_m = odometer.sigma_lateral_m_per_sqrt_m;
   rig.odometry.scale_distance = odometer.scale_distance;
   rig.odometry.scale_turn = odometer.scale_turn;
-  rig.odometry.sigma_scale_distance = 0.01;  // as simulate writes
+  rig.odometry.sigma_scale_distance = 0.01;  // the value that `azimuth simulate` writes
   rig.odometry.drift_rad_per_m = odometer.drift_rad_per_m;
   rig.odometry.lag_s = odometer.lag_s;
   return rig;
@@ -32,7 +32,7 @@ void StagedDrive::run(const World& world, Stamp end) {
     BearingSet set = world.bearings[sets_];
     const Stamp stamp = set.stamp;
     stage_.add(set);
-    bool reached = false;  // up to the first reading that lets the set be used
+    bool reached = false;  // true after the first reading at or after the stamp of the set
     for (; readings_ < world.odometry.size() && !reached; ++readings_) {
       stage_.add(world.odometry[readings_]);
       reached = world.odometry[readings_].stamp >= stamp;

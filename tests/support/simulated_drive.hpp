@@ -1,5 +1,5 @@
 #pragma once
-// A simulated world and the stage that estimates in it.
+// A simulated world and the estimator stage that processes it.
 
 #include <functional>
 #include <memory>
@@ -12,11 +12,11 @@
 
 namespace azimuth {
 
-/// A rig that knows the scenario's noise and calibration exactly.
+/// A rig with exactly the noise and calibration of the scenario.
 Rig rig_of(const Scenario& scenario);
 
-/// Any estimator in its stage. What was put in is given to the stage in the order of stamps, each set followed by the
-/// steps that have become due.
+/// An estimator in its stage. The stage receives the samples in the order of their stamps and runs the steps that are
+/// due after each bearing set.
 class StagedDrive {
  public:
   StagedDrive(std::unique_ptr<Estimator> estimator, const Rig& rig);
@@ -36,13 +36,13 @@ class StagedDrive {
   std::size_t readings_ = 0, sets_ = 0;
 };
 
-/// The EKF.
+/// A staged drive of the EKF.
 class SimulatedDrive : public StagedDrive {
  public:
-  SimulatedDrive(const Rig& rig, const EkfSettings& settings)
-      : SimulatedDrive(std::make_unique<EkfEstimator>(rig, settings), rig) {}
+  SimulatedDrive(const Rig& rig, const EkfSettings& settings, const HealthSettings& health = {})
+      : SimulatedDrive(std::make_unique<EkfEstimator>(rig, settings, MapStart{}, health), rig) {}
   SimulatedDrive(std::unique_ptr<EkfEstimator> estimator, const Rig& rig)
-      : SimulatedDrive{*estimator, std::move(estimator), rig} {}  // braces: in this order
+      : SimulatedDrive{*estimator, std::move(estimator), rig} {}  // braces guarantee the order of evaluation
 
   const EkfEstimator& estimator() const { return estimator_; }
 
@@ -52,10 +52,10 @@ class SimulatedDrive : public StagedDrive {
   const EkfEstimator& estimator_;
 };
 
-/// Where the robot really was at `stamp`, interpolated.
+/// True pose of the robot at `stamp`, interpolated.
 Pose2 true_pose(const World& world, Stamp stamp);
 
-/// Distance of the estimated position from the true one; the map's frame is the true pose of the first set.
+/// Distance between estimated and true position. The map frame is the true pose of the first set.
 double position_error_m(const World& world, const Estimate& estimate);
 
 }  // namespace azimuth

@@ -9,7 +9,7 @@
 namespace azimuth {
 namespace {
 
-/// An image's pose by that of the graph before it.
+/// The pose of an image relative to the preceding pose in the graph.
 struct Behind {
   PoseNumber anchor;
   Motion motion;

@@ -1,5 +1,5 @@
 #pragma once
-// What can happen to images between the camera and the front end.
+// Disturbs images between the camera and the front end.
 
 #include <cstddef>
 #include <functional>
@@ -13,10 +13,10 @@
 
 namespace azimuth::test {
 
-/// Pixels as they are handed to a front end, rows of `format.stride_bytes`; may be changed. `image` counts from 0.
+/// Changes the pixels before the front end receives them. Rows are `format.stride_bytes` long; `image` counts from 0.
 using Spoil = std::function<void(const FrameFormat& format, std::vector<std::byte>& pixels, int image)>;
 
-/// A front end that sees spoilt images.
+/// A front end that receives disturbed images.
 class SpoiltPerception final : public Perception {
  public:
   SpoiltPerception(std::unique_ptr<Perception> front_end, Spoil spoil)

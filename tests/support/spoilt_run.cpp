@@ -13,7 +13,7 @@
 namespace azimuth::test {
 namespace {
 
-/// Odometry put together anew from motions that `change` has been at.
+/// Rebuilds the odometry from its motions after `change` has modified them.
 template <class Change>
 Run with_motions(Run run, const Change& change) {
   Pose2 T = run.odometry.front().T_odom_body;
@@ -105,7 +105,7 @@ Stamp middle_of(const Run& run) {
   return run.odometry.front().stamp + (run.odometry.back().stamp - run.odometry.front().stamp) / 2;
 }
 
-/// Pose at an instant of the truth.
+/// The true pose at `stamp`, interpolated.
 Pose2 true_pose(const Run& run, Stamp stamp) {
   const auto after = std::ranges::lower_bound(run.truth, stamp, {}, &TruthPose::stamp);
   if (after == run.truth.begin()) return run.truth.front().T_world_body;
@@ -212,7 +212,7 @@ Run roughened(Run run, std::uint64_t seed) {
     const double jitter_s = random.uniform(-0.004, 0.004);
     set.stamp += duration_from_seconds(jitter_s);
     for (Bearing& bearing : set.bearings) {
-      // Laplace's distribution, and of one in a hundred anything.
+      // Laplace distribution; one bearing in a hundred is an outlier.
       const double tail_rad = 0.4 * sigma_rad * std::log(std::max(1e-9, random.uniform(0.0, 1.0)));
       const double hand = random.uniform(0.0, 1.0) < 0.5 ? -1.0 : 1.0;
       const bool is_of_nothing = random.uniform(0.0, 1.0) < 0.01;
@@ -224,7 +224,7 @@ Run roughened(Run run, std::uint64_t seed) {
     driven_m += std::abs(went.distance_m);
     if (driven_m < slips_at_m) return went;
     if (driven_m > slips_at_m + 0.3) slips_at_m = driven_m + random.uniform(4.0, 12.0);
-    // The wheels go farther than the robot, one of them more.
+    // The wheels slip: odometry reports more distance than the robot drives, and a turn.
     went.distance_m *= 1.08;
     went.second_turn_rad += 0.05 * went.distance_m;
     return went;

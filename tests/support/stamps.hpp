@@ -3,7 +3,7 @@
 
 namespace azimuth {
 
-/// Seconds after the epoch.
+/// The stamp `seconds` after the epoch.
 inline Stamp at_s(double seconds) { return Stamp{duration_from_seconds(seconds)}; }
 
 }  // namespace azimuth

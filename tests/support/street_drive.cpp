@@ -9,7 +9,7 @@
 namespace azimuth {
 namespace {
 
-/// Legs of whole metres, each at right angles to the one before.
+/// A path with legs of whole metres, each at right angles to the previous one.
 Path streets(const Rectangle& area, double far_m, Random& random) {
   constexpr int kShortest_m = 2, kLongest_m = 8;
   const Eigen::Vector2d middle = (0.5 * (area.low_m + area.high_m)).array().round();

@@ -5,9 +5,10 @@
 
 namespace azimuth {
 
-/// 300 stops a metre apart along streets at right angles, through 28 m by 24 m with 140 landmarks all alike: seen ahead
-/// within 5 m, each time, by sharp bearings (0.2 degrees). The robot slips sideways and its odometer knows turns badly.
-/// Much is new late in the drive. Bearings have names, to judge by. Same seed, same drive.
+/// 300 stops a metre apart along streets at right angles, in an area of 28 m by 24 m with 140 identical landmarks. The
+/// camera looks ahead, with a range of 5 m and sharp bearings (0.2 degrees), and detects every landmark in view. The
+/// robot slips sideways and its odometer measures turns badly. Much of the area is new late in the drive. Bearings keep
+/// their names, for evaluation. The same seed gives the same drive.
 Run street_drive(std::uint64_t seed);
 
 }  // namespace azimuth

@@ -7,7 +7,7 @@
 
 namespace azimuth::test {
 
-/// A folder of its own for the running test, removed at its end.
+/// A temporary folder for the running test, removed at the end of the test.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

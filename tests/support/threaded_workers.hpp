@@ -7,7 +7,7 @@
 
 namespace azimuth {
 
-/// On so many threads, made for each call.
+/// Workers on `threads` threads, which are created for each call.
 class ThreadedWorkers final : public Workers {
  public:
   explicit ThreadedWorkers(int threads) : threads_(threads) {}

@@ -1,4 +1,4 @@
-"""What the checks of the source tree share: how they end, and how they are shown to bite."""
+"""Shared by the checks of the source tree: their main program, and tests that each check finds violations."""
 
 import sys
 import tempfile
@@ -6,7 +6,7 @@ from pathlib import Path
 
 
 def run(violations, needs, clean):
-    """The program: prints all violations of the tree that it is given, which has to hold `needs`; exit code 0 or 1."""
+    """Main program: prints all violations in the given tree, which must contain `needs`; exit code 0 or 1."""
     if len(sys.argv) != 2 or not (Path(sys.argv[1]) / needs).exists():
         sys.exit(f"usage: {Path(sys.argv[0]).name} SOURCE_TREE (the folder that holds {needs})")
     found = list(violations(Path(sys.argv[1])))
@@ -15,10 +15,10 @@ def run(violations, needs, clean):
 
 
 class Bites:
-    """Of a unittest.TestCase that names `violations` and `GOOD`: a tree in which there are none, text by path."""
+    """Mixin for a unittest.TestCase with `violations` and with `GOOD`, a tree without violations (text by path)."""
 
     def found_with(self, extra):
-        """Violations of the good tree with one more file."""
+        """Violations in the good tree after adding or replacing the files `extra`."""
         with tempfile.TemporaryDirectory() as folder:
             tree = Path(folder)
             for path, text in {**self.GOOD, **extra}.items():
@@ -30,7 +30,7 @@ class Bites:
         self.assertEqual(self.found_with({}), [])
 
     def expect_one(self, extra, where, named):
-        """The one more file is wrong at `where`, and the message names `named`."""
+        """Expects one violation: its message starts with `where` and contains `named`."""
         found = self.found_with(extra)
         self.assertEqual(len(found), 1, found)
         self.assertIn(named, found[0])

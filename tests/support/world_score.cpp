@@ -15,7 +15,8 @@ WorldScore score_without_names(const Run& run, const Configuration& configuratio
   Rig rig = read_rig(run.rig_toml, run.rig_file).value();
   rig.camera.identities = false;
   const ReplayResult result = replay(run, rig, configured_estimator(rig, configuration), configuration.stage);
-  const ReplayRecord record = replay_record(run, rig, std::string(estimator_name(rig, configuration)), 0, result);
+  const ReplayRecord record =
+      replay_record(run, rig, std::string(name(chosen_estimator(rig, configuration))), 0, result);
   WorldScore score{evaluate(record), {}};
   std::vector<StampedPose> estimated;
   for (const EstimateRecord& estimate : result.estimates) estimated.push_back({estimate.stamp, estimate.T_map_body});

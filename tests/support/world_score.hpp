@@ -1,5 +1,5 @@
 #pragma once
-// How far the errors of many drives lie within what is said of them.
+// Scores how well the errors of many drives agree with the stated covariances.
 
 #include <span>
 #include <vector>
@@ -11,28 +11,28 @@
 
 namespace azimuth {
 
-/// Of one estimate, as it was live.
+/// Score of one live estimate.
 struct ImageScore {
   TwoSigmaShare share;
-  bool tracking = false;  ///< said its health
+  bool tracking = false;  ///< whether the estimate's health was `tracking`
 };
 
-/// Of one drive.
+/// Score of one drive.
 struct WorldScore {
   Report report;
-  std::vector<ImageScore> images;  ///< those of a covariance: not the first one, nor before the robot moved
+  std::vector<ImageScore> images;  ///< images with a covariance: neither the first nor those before the robot moved
 };
-/// The run without its names through the configured estimator, as `azimuth replay --no-names` has it.
+/// Runs the configured estimator on the run without its names, as `azimuth replay --no-names` does.
 WorldScore score_without_names(const Run& run, const Configuration& configuration);
 
 enum class SigmaMeasure { ellipse, direction };
 
-/// Of all images of these drives, or of those that said `tracking`; sorted.
+/// Shares of all images of these drives, or only of those whose health was `tracking`; sorted.
 std::vector<double> two_sigma_shares(std::span<const WorldScore> worlds, SigmaMeasure measure, bool tracking_only);
 
-/// How many of the sorted values are at most `limit`, as a share; kNotMeasured of none.
+/// Share of the sorted values that are at most `limit`; kNotMeasured if there are none.
 double share_within(std::span<const double> sorted, double limit = 1.0);
-/// By nearest rank; kNotMeasured of none.
+/// Quantile by nearest rank; kNotMeasured if there are no values.
 double quantile(std::span<const double> sorted, double share);
 
 }  // namespace azimuth

@@ -7,7 +7,7 @@
 namespace azimuth::test {
 namespace {
 
-constexpr std::string_view kAnything = "\xE2\x80\xA6";  // the sign of three dots
+constexpr std::string_view kAnything = "\xE2\x80\xA6";  // the ellipsis character
 
 std::string trimmed(std::string text) {
   text.erase(0, text.find_first_not_of(' '));
@@ -15,7 +15,7 @@ std::string trimmed(std::string text) {
   return text;
 }
 
-/// Without the marks of code.
+/// The cell without its backquotes.
 std::string code(std::string cell) {
   if (cell.size() >= 2 && cell.front() == '`' && cell.back() == '`') return cell.substr(1, cell.size() - 2);
   return cell;
@@ -34,7 +34,7 @@ int number(const std::string& text) {
   return value;
 }
 
-/// The pieces of the answer one after the other.
+/// True if the line contains the pieces of the answer between the ellipses, in order.
 bool line_answers(std::string_view line, std::string_view answer) {
   for (;;) {
     const std::size_t end = answer.find(kAnything);

@@ -9,19 +9,19 @@ namespace azimuth::test {
 /// A row of docs/wrong-uses.md.
 struct WrongUse {
   std::string number;
-  std::string done;     ///< in words
-  std::string command;  ///< for a shell
-  int exit_code = -1;   ///< -1: not a number
-  std::string answer;   ///< part of what is printed; the sign … stands for anything within a line
+  std::string done;     ///< The wrong use in words.
+  std::string command;  ///< The shell command.
+  int exit_code = -1;   ///< Expected exit code; -1: the cell is not a number.
+  std::string answer;   ///< Part of the expected output; … stands for any text within a line.
 };
 
-/// Its name among the tests.
+/// Prints the name of the use in the list of tests.
 inline void PrintTo(const WrongUse& use, std::ostream* out) { *out << use.done; }
 
-/// Every row of the document's table, in order.
+/// All rows of the document's tables, in order.
 std::vector<WrongUse> wrong_uses(const std::filesystem::path& document);
 
-/// Whether a line of `printed` has the answer in it.
+/// True if a line of `printed` contains the answer.
 bool answers(const std::string& printed, const std::string& answer);
 
 }  // namespace azimuth::test

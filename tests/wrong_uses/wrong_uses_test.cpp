@@ -1,4 +1,4 @@
-// docs/wrong-uses.md says what each wrong use is answered with; here each of its rows is done, and the answer compared.
+// Runs each command in the tables of docs/wrong-uses.md and compares the answer with the documented one.
 
 #include <chrono>
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ struct Ended {
   std::string printed;
 };
 
-/// By a shell in `folder` that finds the programs.
+/// Runs the command in a shell in `folder`, whose PATH has the programs.
 Ended run(const std::string& command, const fs::path& folder) {
   const std::string script = "PATH=" AZIMUTH_PROGRAMS ":$PATH; cd '" + folder.string() + "'; " + command;
   test::ChildProcess shell({"/bin/sh", "-c", script}, folder);

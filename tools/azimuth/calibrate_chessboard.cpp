@@ -30,7 +30,7 @@ Chessboard board_or_refuse(const ChessboardOptions& options) {
                      options.board, kLeast, kMost));
 }
 
-/// That of the option, else that of a run folder.
+/// The rig file of the option, else the rig file of a run folder.
 std::filesystem::path rig_file(const ChessboardOptions& options) {
   constexpr const char* kOfRun = "rig.toml";
   const bool is_there = options.rig.empty() && std::filesystem::exists(options.images.front() / kOfRun);

@@ -1,5 +1,5 @@
 #pragma once
-// azimuth calibrate fisheye --chessboard: the lens from images of a chessboard.
+// azimuth calibrate fisheye --chessboard: calibrates the lens from images of a chessboard.
 
 #include <filesystem>
 #include <optional>
@@ -13,16 +13,16 @@
 namespace azimuth {
 
 struct ChessboardOptions {
-  std::vector<std::filesystem::path> images;  ///< files, folders of them, or run folders
-  std::filesystem::path rig;                  ///< empty: that of a run folder, if there is one
+  std::vector<std::filesystem::path> images;  ///< image files, folders of images, or run folders
+  std::filesystem::path rig;                  ///< empty: the rig of a run folder, if any
   std::string board;                          ///< COLUMNSxROWS
   std::optional<double> square_m, field_of_view_rad;
   std::size_t most_images = 60;
   CalibrationOutputs outputs;
 };
 
-/// The rig of the file, which has to be of a fisheye with such images; without a file one of which nothing is known but
-/// their size.
+/// Reads the rig from the file and refuses a rig that is not for a fisheye with images of this size. Without a file it
+/// returns a fisheye rig of which only the image size is known.
 Rig rig_of_fisheye_or_refuse(const std::filesystem::path& file, const FrameFormat& format);
 
 void calibrate_by_chessboard(const ChessboardOptions& options);

@@ -1,4 +1,4 @@
-// azimuth calibrate colour: colour classes from what somebody points at in an image.
+// azimuth calibrate colour: learns colour classes from the parts of an image that the user points at.
 
 #include <algorithm>
 #include <cstdio>
@@ -35,7 +35,7 @@ PixelRectangle rectangle_or_refuse(const std::optional<PixelRectangle>& rectangl
   return *rectangle;
 }
 
-/// Goes through the options in their order: what is pointed at belongs to the class named before it, or to the first.
+/// Reads the options in their order. A rectangle or click belongs to the class named before it, or else to the first.
 std::vector<LabelledPixels> labelled_pixels(const CLI::App& command, const ColourOptions& options) {
   const ImageFile image = colour_image(options.image);
   std::vector<LabelledPixels> labelled;
@@ -89,21 +89,24 @@ void calibrate_colour(const CLI::App& command, const ColourOptions& options) {
 }  // namespace
 
 void add_calibrate_colour_command(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("colour", "Learn the colours of landmarks: the [[colour.class]] of azimuth.toml");
+  CLI::App* command = app.add_subcommand(
+      "colour", "Learn the colours of landmarks from an image: the [[colour.class]] of azimuth.toml");
   const auto options = std::make_shared<ColourOptions>();
-  command->add_option("IMAGE", options->image, "An image of the camera (JPEG, PPM)")->required();
-  options->class_option = command->add_option("--class", options->classes, "Name of what is pointed at from here on")
-                              ->required()
-                              ->allow_extra_args(false);
+  command->add_option("IMAGE", options->image, "Image of the camera (JPEG, PPM)")->required();
+  options->class_option =
+      command
+          ->add_option("--class", options->classes,
+                       "Name of the class to which the --rectangle and --click options after it belong")
+          ->required()
+          ->allow_extra_args(false);
   options->rectangle_option =
-      command->add_option("--rectangle", options->rectangles, "A part of the image that has the colour all over")
+      command->add_option("--rectangle", options->rectangles, "Part of the image that has the colour all over")
           ->type_name("U0,V0,U1,V1")
           ->allow_extra_args(false);
-  options->click_option = command->add_option("--click", options->clicks, "A point well within something of the colour")
+  options->click_option = command->add_option("--click", options->clicks, "Point well within a thing of the colour")
                               ->type_name("U,V")
                               ->allow_extra_args(false);
-  command->add_option("--config", options->config, "azimuth.toml whose other classes are kept");
+  command->add_option("--config", options->config, "Keep the other classes of this azimuth.toml");
   command->add_option("--out", options->out, "Write the classes to this file instead of printing them");
   command->callback([command, options] { calibrate_colour(*command, *options); });
 }

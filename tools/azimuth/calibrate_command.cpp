@@ -1,5 +1,5 @@
-// azimuth calibrate: what images say about the camera, and drives about odometry and camera. One file for each thing
-// that can be calibrated, and one for all that a drive tells.
+// azimuth calibrate: calibrates the camera from images, and odometry and camera from drives. Each subcommand has a file
+// of its own, and so has the calibration of everything that a drive tells.
 
 #include <memory>
 #include <string>
@@ -11,23 +11,23 @@
 namespace azimuth {
 
 void add_calibrate_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("calibrate", "Find out from images and drives what rig.toml must say");
+  CLI::App* command = app.add_subcommand("calibrate", "Find the values of rig.toml from images and drives");
   command->require_subcommand(0, 1);
   const auto options = std::make_shared<RunCalibrationOptions>();
-  command->add_option("RUN", options->run.run,
-                      std::string(kRunHelp) + ", with a rig.toml or without: all that it tells of the rig is found");
+  command->add_option(
+      "RUN", options->run.run,
+      std::string(kRunHelp) + ", with a rig.toml or without: calibrate everything that the drive tells of the rig");
   add_run_options(*command, options->run);
   add_calibration_outputs(*command, options->outputs);
   command
       ->add_option("--only", options->only,
-                   "Find no more than these, and leave the rest of the rig as it is; may be repeated, or PART,PART")
+                   "Find these parts of the rig alone, and leave the rest as it is; may be repeated, or PART,PART")
       ->delimiter(',')
       ->check(CLI::IsMember(std::vector<std::string>{kRigParts.begin(), kRigParts.end()}));
   command->footer(
-      "Without a rig.toml it begins from images of a mirror, or from bearings. The subcommands find out more of one "
-      "thing.\n"
-      "Exit codes: 0 done, 1 a file could not be written, or there is no mirror, 2 wrong use or input, or the drive "
-      "cannot tell.");
+      "Without a rig.toml the calibration begins from images of a mirror, or from bearings. Each subcommand finds out "
+      "more\nabout one part of the rig.\nExit codes: 0 done, 1 a file could not be written, or there is no mirror, 2 "
+      "wrong use or input, or the drive cannot tell.");
   command->callback([command, options] {
     if (!command->get_subcommands().empty()) {
       if (!options->only.empty()) throw CLI::ExcludesError("--only", command->get_subcommands().front()->get_name());

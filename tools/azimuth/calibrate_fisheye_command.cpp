@@ -1,5 +1,5 @@
-// azimuth calibrate fisheye: what lamps seen while driving, a chessboard in some images, or another program say of the
-// lens.
+// azimuth calibrate fisheye: finds the lens from lamps seen on a drive, from images of a chessboard, or from another
+// program's calibration.
 
 #include <cmath>
 #include <fmt/format.h>
@@ -121,18 +121,18 @@ void calibrate_fisheye_of(FisheyeOptions options) {
 }
 
 void add_chessboard_options(CLI::App& command, ChessboardOptions& options) {
-  CLI::Option* board =
-      command
-          .add_option("--chessboard", options.board,
-                      "Take the lens from images of a flat chessboard with so many inner corners, where four squares "
-                      "meet: one less each way than there are squares")
-          ->type_name("COLUMNSxROWS");
+  CLI::Option* board = command
+                           .add_option("--chessboard", options.board,
+                                       "Take the lens from images of a flat chessboard with this number of inner "
+                                       "corners, where four squares meet: one less each way than there are squares")
+                           ->type_name("COLUMNSxROWS");
   command
-      .add_option("--square", options.square_m, "Side of a square, for how far off boards were: the lens needs it not")
+      .add_option("--square", options.square_m,
+                  "Side of a square, for printing how far off the boards were; the lens does not need it")
       ->type_name("METRES")
       ->check(CLI::Range(1e-3, 10.0))
       ->needs(board);
-  command.add_option("--most-images", options.most_images, "How many images to look at, evenly spread")
+  command.add_option("--most-images", options.most_images, "Number of images to look at, evenly spread")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str()
       ->needs(board);
@@ -142,47 +142,50 @@ void add_chessboard_options(CLI::App& command, ChessboardOptions& options) {
 
 void add_calibrate_fisheye_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "fisheye", "Find out a fisheye's centre and lens, from lamps on a drive, a chessboard or OCamCalib's file");
+      "fisheye", "Find a fisheye's centre and lens from lamps on a drive, a chessboard or OCamCalib's file");
   const auto options = std::make_shared<FisheyeOptions>();
   CLI::Option* const run =
       command->add_option("RUN", options->chessboard.images,
                           std::string(kRunHelp) +
-                              " with images of a camera that looks up; with --chessboard images (JPEG, PNG, "
-                              "PGM, PPM), folders of them or run folders; not with --ocam");
+                              " with images of a camera that looks up; with --chessboard: images (JPEG, PNG, PGM, "
+                              "PPM), folders of images or run folders; not with --ocam");
   command
-      ->add_option("--ocam", options->ocam,
-                   "Take the lens from this calibration by OCamCalib (calib_results.txt), all else from --rig")
+      ->add_option(
+          "--ocam", options->ocam,
+          "Take the lens from this calibration by OCamCalib (calib_results.txt), and everything else from --rig")
       ->type_name("FILE")
       ->excludes(run);
   add_chessboard_options(*command, options->chessboard);
   add_log_options(*command, options->log);
-  command->add_option("--config", options->config, "azimuth.toml, of which [lamps] says what a lamp is");
-  command->add_option("--set", options->overrides, "Override a setting, e.g. lamps.min_area_px=4")
+  command->add_option("--config", options->config, "azimuth.toml whose table [lamps] says what a lamp is");
+  command->add_option("--set", options->overrides, "Override a setting, e.g. lamps.min_elevation_rad=0.3")
       ->type_name("KEY=VALUE");
   command
-      ->add_option("--lamp-height", options->request.lamp_height_m,
-                   "Of the lamps above the floor, measured; without, the scale of the rig's lens is taken as right")
+      ->add_option(
+          "--lamp-height", options->request.lamp_height_m,
+          "Measured height of the lamps above the floor; without it the scale of the rig's lens is taken as right")
       ->type_name("METRES")
       ->check(CLI::Range(0.1, 100.0));
   command
       ->add_option("--lamp-height-sigma", options->request.sigma_lamp_height_m,
-                   "Standard deviation of that measurement")
+                   "Standard deviation of the height that --lamp-height gives")
       ->type_name("METRES")
       ->check(CLI::Range(1e-4, 10.0))
       ->capture_default_str();
   command
       ->add_option("--lamp-spread", options->request.sigma_one_lamp_m,
-                   "By how much single lamps hang higher or lower, standard deviation")
+                   "Standard deviation by which single lamps hang higher or lower")
       ->type_name("METRES")
       ->check(CLI::Range(1e-4, 10.0))
       ->capture_default_str();
   command
-      ->add_option("--field-of-view", options->field_of_view_deg,
-                   "Begin from an equidistant lens that sees so much within the image's circle, not from the rig's")
+      ->add_option(
+          "--field-of-view", options->field_of_view_deg,
+          "Begin from an equidistant lens with this angle of view within the image's circle, not from the rig's lens")
       ->type_name("DEGREES")
       ->check(CLI::Range(60.0, 280.0));
-  command->add_option("--out", options->outputs.rig, "Write a rig.toml: that of the run with the lens found");
-  command->add_flag("--force", options->outputs.force, "Replace it if it exists");
+  command->add_option("--out", options->outputs.rig, "Write a rig.toml: the run's rig with the lens that was found");
+  command->add_flag("--force", options->outputs.force, "Replace the file of --out if it exists");
   command->add_option("--picture", options->outputs.picture, "Draw centre, circles and residuals on an image, as PNG");
   command->footer("Exit codes: 0 done, 1 a file could not be written, 2 wrong use or input, or the drive cannot tell.");
   command->callback([options] { calibrate_fisheye_of(*options); });

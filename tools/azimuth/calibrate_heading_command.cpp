@@ -1,4 +1,4 @@
-// azimuth calibrate heading: how the camera stands on the robot, by a drive.
+// azimuth calibrate heading: finds the camera's mounting on the robot from a drive.
 
 #include <algorithm>
 #include <cstdio>
@@ -27,7 +27,7 @@ std::string position_text(const HeadingCalibration& found) {
                      std::max(found.ahead.sigma, found.left.sigma));
 }
 
-/// The rig with what was found of the camera alone.
+/// Returns the rig `said` with the camera's mounting that was found, but with its own odometry.
 Rig rig_with(const HeadingCalibration& found, const Rig& said) {
   RigGuess guess = found.solution.guess;
   guess.rig.odometry = said.odometry;
@@ -73,15 +73,15 @@ void calibrate(const HeadingOptions& options) {
 }  // namespace
 
 void add_calibrate_heading_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "heading",
-      "Find out from a drive whether azimuths grow clockwise, where the camera's azimuth 0 is, and where it stands");
+  CLI::App* command = app.add_subcommand("heading",
+                                         "Find from a drive whether azimuths grow clockwise, where the camera's "
+                                         "azimuth 0 points, and where the camera is on the robot");
   const auto options = std::make_shared<HeadingOptions>();
   add_drive_options(*command, options->run);
   add_calibration_outputs(*command, options->outputs);
   command->footer(
-      "Odometry is believed to turn the right way: swapped wheels look as azimuths do that grow clockwise.\n"
-      "Exit codes: 0 done, 1 a file could not be written, 2 wrong use or input, or the drive cannot tell.");
+      "The command takes the odometry's turns to have the right sign: swapped wheels look like azimuths that grow "
+      "clockwise.\nExit codes: 0 done, 1 a file could not be written, 2 wrong use or input, or the drive cannot tell.");
   command->callback([options] { calibrate(*options); });
 }
 

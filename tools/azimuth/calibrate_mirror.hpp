@@ -1,5 +1,5 @@
 #pragma once
-// azimuth calibrate mirror, for those that go on from its rig.
+// The rig of azimuth calibrate mirror, for other calibrations that begin with it.
 
 #include <filesystem>
 
@@ -7,8 +7,9 @@
 
 namespace azimuth {
 
-/// Of a run whose images show a mirror, printing what is found unless `quiet`: the heading up in the image, the front
-/// end by what is seen again. Refuses and fails as the command does.
+/// Makes the rig of a run whose images show a mirror, and prints the findings unless `quiet`. The rig has the robot's
+/// heading up in the image, and the front end that recognises more in the images. Refuses and fails as the command
+/// does.
 Rig rig_by_mirror(const std::filesystem::path& run, bool quiet);
 
 }  // namespace azimuth

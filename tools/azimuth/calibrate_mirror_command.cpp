@@ -1,4 +1,4 @@
-// azimuth calibrate mirror: the mirror's circle and centre in images without a target.
+// azimuth calibrate mirror: finds the mirror's circle and centre in images without a target.
 
 #include <fmt/format.h>
 #include <limits>
@@ -24,7 +24,7 @@ namespace azimuth {
 namespace {
 
 constexpr std::size_t kMostPairs = 20;
-constexpr double kClear = 0.5;  // rims that are less clear were mistaken now and then in single images
+constexpr double kClear = 0.5;  // in single images, less clear rims are sometimes mistaken
 
 struct MirrorOptions {
   std::vector<std::filesystem::path> images;
@@ -41,7 +41,7 @@ struct Search {
   MirrorCircle mirror;
 };
 
-/// Images that cannot be read: one that was cut among good ones is no reason to end.
+/// Counts images that cannot be read. A damaged image among good ones does not end the search.
 struct Unread {
   int count = 0;
   FileErrors first;
@@ -106,7 +106,7 @@ FrontEndsSeenAgain front_ends_seen(const MirrorOptions& options, const Rig& rig)
   return trial.seen();
 }
 
-/// Sets the rig's front end; why it is that one.
+/// Sets the rig's front end and returns the reason for the choice.
 std::string choose_front_end(const MirrorOptions& options, Rig& rig, bool quiet = false) {
   const FrontEndsSeenAgain seen = front_ends_seen(options, rig);
   rig.front_end = front_end_for(seen);
@@ -117,7 +117,7 @@ std::string choose_front_end(const MirrorOptions& options, Rig& rig, bool quiet 
   return why;
 }
 
-/// Where it was the rig that a run folder lacked.
+/// Prints the next command if the rig was written into a run folder.
 void say_what_next(const MirrorOptions& options) {
   const std::filesystem::path& run = options.images.front();
   std::error_code ignored;
@@ -128,7 +128,7 @@ void say_what_next(const MirrorOptions& options) {
         run.string());
 }
 
-/// Written only if it can be read back: a model may need what was not given.
+/// Writes the rig only if it can be read back, since the model may need a parameter that was not given.
 void write_rig(const Search& search, const MirrorOptions& options) {
   if (!options.force && std::filesystem::exists(options.out))
     refuse(options.out.string() + ": exists already; --force replaces it");
@@ -175,11 +175,16 @@ void add_model_options(CLI::App& command, MirrorOptions& options) {
   command.add_option("--model", options.model.model, "Camera model in rig.toml; radial knows azimuths only")
       ->check(CLI::IsMember({"radial", "hyperbolic_mirror", "parabolic_mirror"}))
       ->capture_default_str();
-  command.add_option("--mirror-a-mm", options.model.mirror_a_mm, "hyperbolic_mirror: a of z^2/a^2 - r^2/b^2 = 1");
-  command.add_option("--mirror-b-mm", options.model.mirror_b_mm, "hyperbolic_mirror: b");
-  command.add_option("--focal-length-px", options.model.focal_length_px, "hyperbolic_mirror: of its camera");
-  command.add_option("--horizon-radius-px", options.model.horizon_radius_px, "parabolic_mirror: where the horizon is");
-  command.add_option("--front-end", options.front_end, "Front end in rig.toml; by_images: what sees more again")
+  command.add_option("--mirror-a-mm", options.model.mirror_a_mm,
+                     "Semi-axis a of hyperbolic_mirror: z^2/a^2 - r^2/b^2 = 1");
+  command.add_option("--mirror-b-mm", options.model.mirror_b_mm, "Semi-axis b of hyperbolic_mirror");
+  command.add_option("--focal-length-px", options.model.focal_length_px,
+                     "Focal length of the camera of hyperbolic_mirror");
+  command.add_option("--horizon-radius-px", options.model.horizon_radius_px,
+                     "Radius of the horizon of parabolic_mirror");
+  command
+      .add_option("--front-end", options.front_end,
+                  "Front end in rig.toml; by_images: the one that recognises more in the images")
       ->check(CLI::IsMember({"by_images", "sift", "colour"}))
       ->capture_default_str();
 }
@@ -197,20 +202,21 @@ Rig rig_by_mirror(const std::filesystem::path& run, bool quiet) {
 }
 
 void add_calibrate_mirror_command(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("mirror", "Find the mirror's circle and centre; 1: there is none, or the compared rig is off");
+  CLI::App* command = app.add_subcommand(
+      "mirror",
+      "Find the mirror's circle and centre in images; exit code 1: there is none, or the compared rig is off");
   const auto options = std::make_shared<MirrorOptions>();
   command
       ->add_option("IMAGE", options->images,
-                   "Images (JPEG, PGM, PPM), folders of them or run folders; several places are better than one")
+                   "Images (JPEG, PGM, PPM), folders of images or run folders; several places are better than one")
       ->required();
-  command->add_option("--most-images", options->most_images, "How many of them to look at, evenly spread")
+  command->add_option("--most-images", options->most_images, "Number of images to look at, evenly spread")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
-  command->add_option("--out", options->out, "Write a rig.toml");
-  command->add_flag("--force", options->force, "Replace it if it exists");
-  command->add_option("--picture", options->picture, "Draw what was found on the first image, as PNG");
-  command->add_option("--compare", options->compare, "Say how far the centre in this rig.toml is off");
+  command->add_option("--out", options->out, "Write a rig.toml with the mirror that was found");
+  command->add_flag("--force", options->force, "Replace the file of --out if it exists");
+  command->add_option("--picture", options->picture, "Draw the mirror that was found on the first image, as PNG");
+  command->add_option("--compare", options->compare, "Say how far off the centre in this rig.toml is");
   add_model_options(*command, *options);
   command->callback([options] { calibrate_mirror(*options); });
 }

@@ -20,7 +20,7 @@ OcamCalibration calibration_or_refuse(const std::filesystem::path& file) {
   return *std::move(calibration);
 }
 
-/// The rig's mounting and masks with the lens that was read.
+/// Returns the rig with its own mounting and masks, and with the lens that was read.
 Rig with_lens(Rig rig, const CameraRig& lens) {
   ImageRig& image = rig.camera.image;
   rig.camera.model = lens.model;

@@ -1,5 +1,5 @@
 #pragma once
-// azimuth calibrate fisheye --ocam: the lens from a calibration that OCamCalib made.
+// azimuth calibrate fisheye --ocam: takes the lens from a calibration by OCamCalib.
 
 #include <filesystem>
 
@@ -8,8 +8,8 @@
 namespace azimuth {
 
 struct OcamOptions {
-  std::filesystem::path calibration;  ///< its calib_results.txt
-  std::filesystem::path rig;          ///< empty: all else is to be filled in
+  std::filesystem::path calibration;  ///< calib_results.txt of OCamCalib
+  std::filesystem::path rig;          ///< empty: the user fills in everything but the lens
   CalibrationOutputs outputs;
 };
 

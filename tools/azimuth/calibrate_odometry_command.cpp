@@ -1,4 +1,4 @@
-// azimuth calibrate odometry: what a drive says of the wheels, by bearings alone.
+// azimuth calibrate odometry: calibrates the odometry from the bearings of a drive.
 
 #include <charconv>
 #include <cmath>
@@ -15,7 +15,7 @@
 namespace azimuth {
 namespace {
 
-/// Two landmarks and how far they are apart.
+/// Two landmarks and their measured distance.
 struct MeasuredLength {
   Identity from = 0, to = 0;
   double distance_m = 0.0;
@@ -61,7 +61,7 @@ std::string told(const FoundNumber& number, const char* key, const char* unit, d
   return fmt::format("{} = {:.4f} +- {:.4f}{} (the rig says {:g})", key, number.value, number.sigma, unit, said);
 }
 
-/// `power`: of the variance, that the key is.
+/// Describes one noise parameter. The key's value is the variance to the power `power`.
 std::string told(const OdometryNoise::Told& noise, const char* key, double power, double said) {
   if (!noise.is_told())
     return fmt::format("cannot tell {}, which stays {:g}; a longer drive with turns both ways tells", key, said);
@@ -91,7 +91,7 @@ std::string told(const Creep& creep, const OdometryRig& found) {
                      creep.rad_per_s(), creep.m_per_s(), found.floor_rotation_rad, found.floor_distance_m);
 }
 
-/// True lengths over found ones, where somebody measured any.
+/// The scale of true to found lengths, if a measured distance or the truth is given.
 std::optional<LengthScale> length_scale(const OdometryOptions& options, const RecordedDrive& recorded,
                                         const DriveSolution& solution) {
   const ReplaySetup& setup = recorded.setup;
@@ -118,7 +118,8 @@ std::string told(const std::optional<LengthScale>& lengths, const OdometryRig& s
                      said.scale_distance * lengths->sigma, said.scale_distance);
 }
 
-/// Turned and straightened all the same, a path that is longer drifts less for each of its metres.
+/// Applies the scale of lengths. The heading's drift is the same for the whole path, so a longer path drifts less per
+/// metre.
 void take_lengths(const LengthScale& lengths, OdometryRig& odometry) {
   odometry.scale_distance *= lengths.scale;
   odometry.drift_rad_per_m /= lengths.scale;
@@ -127,8 +128,8 @@ void take_lengths(const LengthScale& lengths, OdometryRig& odometry) {
 
 void calibrate(const OdometryOptions& options) {
   check_outputs(options.outputs);
-  if (!options.measured.empty()) measured_length(options.measured);  // refused before any work
-  // Whoever names two landmarks has the names from a map.
+  if (!options.measured.empty()) measured_length(options.measured);  // refuses before any work
+  // The names in --measured are those of the filter's map.
   const RecordedDrive recorded = recorded_drive(options.run, options.measured.empty() ? NamedBy::eye : NamedBy::filter);
   const ReplaySetup& setup = recorded.setup;
   const std::string run = options.run.run.string();
@@ -142,7 +143,7 @@ void calibrate(const OdometryOptions& options) {
   Rig rig = found.solution.guess.rig;
   const auto lengths = length_scale(options, recorded, found.solution);
   if (lengths) take_lengths(*lengths, rig.odometry);
-  // Floor and load change from day to day: a drive that knows no better than the rig leaves what it says.
+  // Floor and load change from day to day, so the drive's value only replaces a larger standard deviation.
   if (found.turn.told)
     rig.odometry.sigma_scale_turn = std::min(said.sigma_scale_turn, found.turn.sigma / found.turn.value);
   if (!options.run.quiet) {
@@ -173,13 +174,13 @@ void calibrate(const OdometryOptions& options) {
 
 void add_calibrate_odometry_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "odometry", "Find out from a drive the odometry's scale of turns, drift, lag and noise, by bearings alone");
+      "odometry", "Find the odometry's scale of turns, drift, lag and noise from a drive, by bearings alone");
   const auto options = std::make_shared<OdometryOptions>();
   add_drive_options(*command, options->run);
   add_truth_options(*command, options->run);
   command
       ->add_option("--measured", options->measured,
-                   "Distance of two landmarks, which tells the scale of distances as truth does")
+                   "Measured distance of two landmarks, which tells the scale of distances as --truth does")
       ->type_name("FROM,TO,METRES");
   add_calibration_outputs(*command, options->outputs);
   command->footer("Exit codes: 0 done, 1 a file could not be written, 2 wrong use or input, or the drive cannot tell.");

@@ -23,19 +23,19 @@
 namespace azimuth {
 namespace {
 
-// A heading that is known to three degrees is better than none, and the smoother finds the rest by what it says of it.
+// A heading known to three degrees is better than none, and the smoother refines it by its standard deviation.
 constexpr double kTakenYaw_rad = 0.05;
 constexpr double kFewestResiduals = 50.0;
 constexpr std::size_t kFits = 4;  // heading, tilt, odometry, heading again
 
-/// What was found, for the reader and for the file: of the parts that are asked for.
+/// Prints the findings of the requested parts, and keeps them as comments for the rig file.
 class ToldByDrive {
  public:
   explicit ToldByDrive(const RunCalibrationOptions& options) : quiet_(options.run.quiet), only_(options.only) {}
 
   bool asks_for(std::string_view part) const { return only_.empty() || std::ranges::find(only_, part) != only_.end(); }
 
-  /// A line of the table, and the comment above its key in the file: `sentence` begins with "table.key = ".
+  /// Prints a line and keeps it as the comment above its key in the file. `sentence` begins with "table.key = ".
   void found(const std::string& part, const std::string& name, const std::string& sentence) {
     if (!asks_for(part)) return;
     print(name, sentence);
@@ -46,7 +46,7 @@ class ToldByDrive {
     if (asks_for(part)) print(name, "cannot tell: " + what_would);
   }
   void cannot_tell(const std::string& part, const std::string& what_would) { cannot_tell(part, part, what_would); }
-  /// `found` in the parts that are asked for, and else as was said.
+  /// Returns `found` in the requested parts, and `said` in the others.
   Rig with_those_parts(Rig found, const Rig& said) const {
     CameraRig& camera = found.camera;
     const auto keep = [&](std::string_view part, auto& value, const auto& said_value) {
@@ -73,7 +73,7 @@ class ToldByDrive {
   }
   bool any() const { return !notes_.empty(); }
 
-  /// The text of a rig with what is said of its keys above them.
+  /// Returns the rig's text with the kept comments above the keys.
   std::string noted(const std::string& rig) const {
     std::istringstream lines(rig);
     std::string text, table;
@@ -98,7 +98,7 @@ class ToldByDrive {
 
 struct Start {
   Rig rig;
-  bool by_images = false;  ///< there was none, and images told of the camera
+  bool by_images = false;  ///< the run has no rig, and the images gave the camera's model
 };
 
 Start starting_rig(const ReplayOptions& options) {
@@ -119,11 +119,11 @@ Start starting_rig(const ReplayOptions& options) {
   return {rig};
 }
 
-/// What does not contradict the rig leaves it as it is: of two values that a drive cannot tell apart, the one that
-/// somebody wrote down.
+/// Whether the found value contradicts the rig's. Without a contradiction the rig keeps its value: of two values that
+/// the drive cannot tell apart, the user's own is preferred.
 bool contradicts(double found, double said, double sigma) { return std::abs(found - said) > 2.0 * sigma; }
 
-/// What is told of how the camera stands, taken over.
+/// Takes the camera's heading and position into the rig.
 void take(const HeadingCalibration& found, Rig& rig) {
   if (found.yaw.sigma > 0.0 && found.yaw.sigma < kTakenYaw_rad) {
     const double off_rad = wrap(found.yaw.value - rig.camera.yaw_offset_rad);
@@ -138,7 +138,7 @@ void take(const HeadingCalibration& found, Rig& rig) {
   rig.camera.sigma_position_m = std::max(found.ahead.sigma, found.left.sigma);
 }
 
-/// Likewise of odometry; noise and floors are those of the solution.
+/// Takes the odometry's calibration into the rig. Noise and floors are those of the solution.
 void take(const OdometryCalibration& found, const OdometryRig& said, Rig& rig) {
   rig.odometry = found.solution.guess.rig.odometry;
   const auto keep = [](const FoundNumber& number, double said_value, double& value, double& sigma) {
@@ -146,7 +146,7 @@ void take(const OdometryCalibration& found, const OdometryRig& said, Rig& rig) {
     if (number.told) sigma = number.sigma;
   };
   keep(found.turn, said.scale_turn, rig.odometry.scale_turn, rig.odometry.sigma_scale_turn);
-  if (found.turn.told) rig.odometry.sigma_scale_turn /= rig.odometry.scale_turn;  // which is relative
+  if (found.turn.told) rig.odometry.sigma_scale_turn /= rig.odometry.scale_turn;  // the key is relative
   keep(found.drift, said.drift_rad_per_m, rig.odometry.drift_rad_per_m, rig.odometry.sigma_drift_rad_per_m);
   keep(found.lag, said.lag_s, rig.odometry.lag_s, rig.odometry.sigma_lag_s);
 }
@@ -210,7 +210,7 @@ void tell(const OdometryCalibration& found, const OdometryRig& odometry, ToldByD
       "turn", "distance", "bearings know no lengths: azimuth calibrate odometry --measured FROM,TO,METRES, or --truth");
 }
 
-/// Of bearings that say nothing of it themselves.
+/// Finds the bearings' noise, if no bearing carries its own standard deviation.
 void find_bearing_noise(const RecordedDrive& recorded, const DriveSolution& solution, Rig& rig,
                         ToldByDrive& told_by_drive) {
   const auto says_none = [](const BearingSet& set) {
@@ -223,22 +223,24 @@ void find_bearing_noise(const RecordedDrive& recorded, const DriveSolution& solu
   const Smoother::Noise noise = smoother.bearing_noise();
   if (!(noise.told > kFewestResiduals))
     return told_by_drive.cannot_tell("bearings", "how noisy they are; drive longer");
-  // Errors that all bearings of an image share are not among what is left: half of less noise is believed, in decibels.
+  // The residuals lack the errors that all bearings of an image share. Therefore the noise is lowered only by the
+  // square root of the ratio, but raised by the whole ratio.
   rig.camera.sigma_bearing_rad *= noise.ratio < 1.0 ? std::sqrt(noise.ratio) : noise.ratio;
   told_by_drive.found("bearings", fmt::format("camera.sigma_bearing_rad = {:.4f} +- {:.0f} %",
                                               rig.camera.sigma_bearing_rad, 100.0 / std::sqrt(2.0 * noise.told)));
 }
 
-/// What a drive makes of a rig.
+/// The rig that a drive gives, and its parts.
 struct DriveRig {
-  std::optional<TiltCalibration> tilt;  ///< of cameras whose images say how high things are seen
+  std::optional<TiltCalibration> tilt;  ///< present if the images tell elevations
   HeadingCalibration heading;
   OdometryCalibration odometry;
   Rig rig;
 };
 
-/// Where the camera looks first, since odometry is judged by bearings; then again, by odometry that is right. Another
-/// hand makes another drive of the run: `recorded` and `said` are those with the right one afterwards.
+/// Fits the camera's heading first, since bearings judge the odometry, and again with the corrected odometry. If
+/// azimuths grow the other way than the rig says, or if the tilt contradicts the rig, the run is read anew: `recorded`
+/// and `said` then have the right values.
 DriveRig rig_by_drive(const RunCalibrationOptions& options, const ToldByDrive& told_by_drive, Rig& said,
                       RecordedDrive& recorded) {
   const std::string run = options.run.run.string();

@@ -1,5 +1,5 @@
 #pragma once
-// azimuth calibrate RUN: all that one drive tells of the rig.
+// azimuth calibrate RUN: calibrates everything that one drive tells of the rig.
 
 #include <array>
 #include <string>
@@ -9,19 +9,19 @@
 
 namespace azimuth {
 
-/// What a drive may tell of a rig: which way azimuths grow and from where, where the camera stands and how it leans,
-/// the odometer's scale of turns, drift, lag and noise, and how noisy bearings are.
+/// The parts of a rig that a drive can tell: direction and origin of the azimuths, the camera's position and tilt, the
+/// odometer's scale of turns, drift, lag and noise, and the noise of the bearings.
 inline constexpr std::array kRigParts{"heading", "position", "tilt", "turn", "drift", "lag", "noise", "bearings"};
 
 struct RunCalibrationOptions {
   ReplayOptions run;
   CalibrationOutputs outputs;
-  std::vector<std::string> only;  ///< of kRigParts; empty: all of them
+  std::vector<std::string> only;  ///< parts from kRigParts; empty: all parts
 };
 
-/// Begins from the run's rig, or from none: then from what its images or bearings are. Prints what was found and what
-/// the drive cannot tell. All is fitted together, whatever part of it is asked for: the rest stays in the rig as it
-/// was. Refuses drives that tell nothing.
+/// Calibrates the run's rig. A run without a rig begins from a mirror found in its images, or from its bearings. Prints
+/// the values that were found and the parts that the drive cannot tell. All parts are always fitted together, but only
+/// the requested parts change in the rig. Refuses drives that tell nothing.
 void calibrate_by_run(const RunCalibrationOptions& options);
 
 }  // namespace azimuth

@@ -1,4 +1,4 @@
-// azimuth check: whether a run can be what its rig says.
+// azimuth check: judges whether a run agrees with its rig.
 
 #include <algorithm>
 #include <cmath>
@@ -66,12 +66,12 @@ void add_check_command(CLI::App& app) {
       app.add_subcommand("check", "Judge whether a run's bearings and odometry can be what its rig says");
   const auto options = std::make_shared<CheckOptions>();
   add_drive_options(*command, options->run);
-  command->add_option("--out", options->out, "Write a rig.toml: that of the run with what is wrong put right");
-  command->add_flag("--force", options->force, "Replace it if it exists");
+  command->add_option("--out", options->out, "Write a rig.toml: the run's rig with its mistakes put right");
+  command->add_flag("--force", options->force, "Replace the file of --out if it exists");
   command->footer(
-      "The run's truth and landmarks.csv, where it has them, tell the scale of distances and which of two mirrored\n"
-      "worlds is the true one, and nothing else.\n"
-      "Exit codes: 0 nothing is wrong that can be told, 1 something is, and is named, 2 wrong use or input.");
+      "The command uses the run's truth and landmarks.csv, if any, only to tell the scale of distances and which of "
+      "two\nmirrored worlds is the true one.\nExit codes: 0 no mistake found, 1 a mistake was found and is named, 2 "
+      "wrong use or input.");
   command->callback([options] { check(*options); });
 }
 

@@ -42,13 +42,17 @@ LoadedMap load_map_or_refuse(const std::filesystem::path& file) {
   return *std::move(loaded);
 }
 
-void add_log_options(CLI::App& command, LogOptions& options) {
-  command.add_option("--rig", options.rig_file, "rig.toml to use in place of the run's own");
+void add_channel_options(CLI::App& command, LogOptions& options) {
   command.add_option(
       "--odometry-channel", options.odometry_channel,
-      "Of the odometry in the log of another program: bot_core.pose_t, or odometry_t; else AZIMUTH_ODOM");
-  command.add_option("--image-channel", options.image_channel, "Of the images (image_t) in the log")
+      "Channel of odometry in the LCM log of another program (bot_core.pose_t or odometry_t); without it AZIMUTH_ODOM");
+  command.add_option("--image-channel", options.image_channel, "Channel of images (image_t) in an LCM log")
       ->capture_default_str();
+}
+
+void add_log_options(CLI::App& command, LogOptions& options) {
+  command.add_option("--rig", options.rig_file, "rig.toml that replaces the run's own");
+  add_channel_options(command, options);
 }
 
 void write_text(const std::string& text, const std::filesystem::path& file) {

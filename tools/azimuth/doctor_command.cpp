@@ -1,4 +1,4 @@
-// azimuth doctor: what stands in the way of the daemon on this machine.
+// azimuth doctor: finds what would stop the daemon on this machine.
 
 #include <cstdio>
 #include <memory>
@@ -32,20 +32,20 @@ void examine_machine(const DoctorOptions& options) {
 
 void add_doctor_command(CLI::App& app) {
   CLI::App* command =
-      app.add_subcommand("doctor", "Look for what stands in the way of the daemon here; 1: an error was found");
+      app.add_subcommand("doctor", "Find what would stop the daemon on this machine; exit code 1: an error was found");
   const auto options = std::make_shared<DoctorOptions>();
   options->plan.version = AZIMUTH_VERSION;
-  command->add_option(
-      "--config", options->plan.configuration,
-      "The daemon's configuration: what it uses is looked at, and it is checked by the daemon; without it "
-      "that of the installed service");
+  command->add_option("--config", options->plan.configuration,
+                      "Configuration of the daemon: the daemon checks it, and the command examines everything that it "
+                      "uses; without it the configuration of the installed service");
   command->add_option("--device", options->plan.devices, "Serial device of the robot; may be repeated")
       ->allow_extra_args(false);
   command->add_option("--record-folder", options->plan.recording_folder,
-                      "Where the daemon is to record, in place of what the configuration says");
-  command->add_option("--min-free-mb", options->plan.min_free_mb, "What recording leaves free")->capture_default_str();
-  command->add_option("--user", options->user, "Who runs the daemon; without it whoever asks");
-  command->add_flag("--json", options->json, "Print JSON");
+                      "Folder into which the daemon is to record, in place of the configuration's folder");
+  command->add_option("--min-free-mb", options->plan.min_free_mb, "Space that recording leaves free on the disk, in MB")
+      ->capture_default_str();
+  command->add_option("--user", options->user, "User who runs the daemon; without it the user who calls the command");
+  command->add_flag("--json", options->json, "Print the findings as JSON");
   command->callback([options] { examine_machine(*options); });
 }
 

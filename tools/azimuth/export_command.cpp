@@ -1,4 +1,4 @@
-// azimuth export: what a daemon estimated while it recorded, for other programs. Nothing is estimated anew.
+// azimuth export: writes the recorded estimates of a daemon for other programs. Nothing is estimated anew.
 
 #include <cstdio>
 #include <filesystem>
@@ -11,7 +11,9 @@
 #include "drivers/storage/session.hpp"
 #include "drivers/wire/channels.hpp"
 #include "tools/azimuth/command.hpp"
+#include "tools/azimuth/convert_run.hpp"
 #include "tools/azimuth/exports.hpp"
+#include "tools/azimuth/output_path.hpp"
 #include "tools/export/recorded.hpp"
 
 namespace azimuth {
@@ -21,12 +23,13 @@ struct RecordedExport {
   std::filesystem::path run;
   ExportWishes wishes;
   LogOptions log;
+  bool force = false;
 };
 
-/// How to get what is not recorded.
+/// Names the commands that estimate what is not recorded.
 std::string worked_out_anew(const RecordedExport& options) {
   return "; `azimuth replay " + options.run.string() + " --export " + options.wishes.files.front() +
-         "` works out what would have been, `azimuth refine` what can be known";
+         "` estimates what the daemon would have, `azimuth map refine` what the whole drive tells";
 }
 
 bool is_run_folder(const std::filesystem::path& path) {
@@ -54,7 +57,14 @@ void tell_losses(const RecordedOutputs& outputs) {
   if (outputs.malformed > 0) fmt::print(stderr, "left out: {} malformed messages\n", outputs.malformed);
 }
 
+/// Whether the user wants the samples themselves, as one LCM log.
+bool wants_log(const RecordedExport& options) {
+  return options.wishes.files.size() == 1 && is_log_name(options.wishes.files.front());
+}
+
 void export_recorded(const RecordedExport& options) {
+  if (wants_log(options))
+    return convert({.in = options.run, .out = options.wishes.files.front(), .force = options.force});
   check_exports(options.wishes);
   const RecordedOutputs outputs = outputs_of(options);
   const Estimated estimated = estimated_of(outputs, options.run.stem().string());
@@ -68,18 +78,23 @@ void export_recorded(const RecordedExport& options) {
 }  // namespace
 
 void add_export_command(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("export", "Write what a daemon estimated, as it was recorded, for other programs");
+  CLI::App* command = app.add_subcommand("export", "Write the recorded estimates of a daemon for other programs");
   const auto options = std::make_shared<RecordedExport>();
-  command->add_option("RUN", options->run, "A daemon's session folder, or an LCM log with its poses")->required();
+  command
+      ->add_option("RUN", options->run,
+                   "Session folder of a daemon, or an LCM log with its poses; for FILE.lcmlog any run")
+      ->required();
   command
       ->add_option("FILE", options->wishes.files,
-                   "In the format that the name ends with (tum, kitti, kitti_times, csv, geojson, bag, mcap), or that "
-                   "stands before it: kitti:poses.txt; several are written one after the other")
+                   "File to write, in the format that its name ends with (tum, kitti, kitti_times, csv, geojson, bag, "
+                   "mcap), or that stands before the name: kitti:poses.txt; several files may be given. FILE.lcmlog "
+                   "alone: the samples themselves as an LCM log")
       ->required();
   add_origin_option(*command, options->wishes);
-  command->add_option("--prefix", options->log.channel_prefix, "Of the channels in the log");
-  command->footer("Of other estimates than those that were published: replay --export, refine --export.");
+  command->add_option("--prefix", options->log.channel_prefix, "Prefix of the channels in the log");
+  command->add_flag("--force", options->force, "Replace an LCM log that exists");
+  command->footer(
+      "azimuth replay --export and azimuth map refine --export write new estimates instead of the recorded ones.");
   command->callback([options] { export_recorded(*options); });
 }
 

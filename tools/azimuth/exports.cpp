@@ -37,8 +37,8 @@ std::optional<MapOrigin> origin_of(const ExportWishes& wishes) {
 
 void add_origin_option(CLI::App& command, ExportWishes& wishes) {
   command.add_option("--origin", wishes.origin,
-                     "Of GeoJSON: where the map's origin lies and where its x axis points, LAT,LON[,HEADING] in "
-                     "degrees, heading clockwise from north; without it coordinates are metres in the map's frame");
+                     "Place of the map's origin and heading of its x axis in GeoJSON, LAT,LON[,HEADING] in degrees, "
+                     "heading clockwise from north; without it coordinates are metres in the map's frame");
 }
 
 void add_export_options(CLI::App& command, ExportWishes& wishes) {

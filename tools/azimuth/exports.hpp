@@ -1,5 +1,5 @@
 #pragma once
-// What subcommands share that export what was estimated.
+// Export of estimates, shared by the subcommands.
 
 #include <CLI/CLI.hpp>
 #include <string>
@@ -11,10 +11,10 @@
 
 namespace azimuth {
 
-/// As the command line gives them.
+/// The export options of the command line.
 struct ExportWishes {
   std::vector<std::string> files;  ///< FILE, or FORMAT:FILE
-  std::string origin;              ///< of the map, for GeoJSON; empty: nobody knows
+  std::string origin;              ///< place of the map's origin for GeoJSON; empty: unknown
 };
 
 /// Adds --export, which may be repeated, and --origin.
@@ -22,19 +22,19 @@ void add_export_options(CLI::App& command, ExportWishes& wishes);
 /// Adds --origin alone.
 void add_origin_option(CLI::App& command, ExportWishes& wishes);
 
-/// Refuses what is no format, and fails where a file could not be written.
+/// Refuses unknown formats, and fails if a file could not be written.
 void check_exports(const ExportWishes& wishes);
 
-/// On standard error, what the owner may not expect of them.
+/// Prints a note on standard error if the coordinates have no place on the globe.
 void tell_of_exports(const ExportWishes& wishes);
 
-/// Writes each file. A pose there must be.
+/// Writes each file. `estimated` must have a pose.
 void write_exports(const Estimated& estimated, const ExportWishes& wishes);
 
-/// The poses of the steps as they were known then; the path as it is known at the end, where the estimator looks back.
+/// The poses as they were known at each step, and the path as it is known at the end if the estimator is a smoother.
 Estimated estimated_of(const Run& run, const ReplayResult& result);
 
-/// The poses as they are known at the end. Health is of the poses that were known on the way, and left out.
+/// The poses as they are known at the end. Health is left out, since it judges the poses known during the drive.
 Estimated refined_of(const Run& run, const ReplayResult& result);
 
 }  // namespace azimuth

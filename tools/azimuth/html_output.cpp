@@ -8,7 +8,7 @@
 namespace azimuth {
 namespace {
 
-/// The bytes of a page are shared by its runs.
+/// The limits of one run's pictures: all runs share the bytes of the page.
 PictureLimits limits_of(const HtmlWishes& wishes, std::size_t runs) {
   PictureLimits limits;
   limits.bytes /= std::max<std::size_t>(1, runs);
@@ -20,11 +20,12 @@ PictureLimits limits_of(const HtmlWishes& wishes, std::size_t runs) {
 
 void add_html_options(CLI::App& command, HtmlWishes& wishes) {
   command.add_option("--html", wishes.file,
-                     "Write one page for a browser, which needs nothing else: map, errors and 2 sigma over time, NIS "
-                     "and ANEES, bearings, health with its reasons, images with what was seen in them");
+                     "Write one self-contained page for a browser: map, errors and 2 sigma over time, NIS and ANEES, "
+                     "bearings, health with its reasons, images with the landmarks seen in them");
   command
       .add_option("--html-pictures", wishes.pictures,
-                  "Images in that page at most, of each run; drawn smaller so that all take no more than 4 MB. 0: none")
+                  "Most images of each run in the page of --html; they are drawn smaller so that all take no more than "
+                  "4 MB. 0: none")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
 }

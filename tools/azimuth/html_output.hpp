@@ -1,5 +1,5 @@
 #pragma once
-// What subcommands share that write a page of runs.
+// The page of runs that --html writes, shared by the subcommands.
 
 #include <CLI/CLI.hpp>
 #include <cstddef>
@@ -17,30 +17,30 @@
 
 namespace azimuth {
 
-/// As the command line gives them.
+/// The options of the page on the command line.
 struct HtmlWishes {
   std::filesystem::path file;  ///< empty: no page is written
-  bool for_window = false;     ///< runs() is asked for all the same
+  bool for_window = false;     ///< runs() is used even without a file
   std::size_t pictures = PictureLimits{}.pictures;
 };
 
 /// Adds --html and --html-pictures.
 void add_html_options(CLI::App& command, HtmlWishes& wishes);
 
-/// One page of one or several runs. Not asked for, it does nothing.
+/// One page of one or several runs. Without a request for a page the class does nothing.
 ///
 /// Thread contract: thread-bound.
 class HtmlOutput {
  public:
   HtmlOutput(HtmlWishes wishes, std::size_t runs) : wishes_(std::move(wishes)), runs_(runs) {}
 
-  /// Begins with a run, which it borrows until add() or the next call: what is to look on at its replay, not longer.
+  /// Begins a run and returns the watch for its replay. The object borrows `setup` until add() or the next watch().
   ReplayWatch watch(const ReplaySetup& setup);
-  /// Its outcome; one without a step is left out.
+  /// Adds the outcome of the run. A run without a step is left out.
   void add(const ReplaySetup& setup, const ReplayResult& result, const Report& report);
-  /// As page_data() takes them.
+  /// The added runs in the form that page_data() takes.
   const std::vector<nlohmann::ordered_json>& runs() const { return done_; }
-  /// Fails where the file cannot be written. Without a run there is nothing to write.
+  /// Writes the page, if there is a run. Fails if the file cannot be written.
   void write() const;
 
  private:

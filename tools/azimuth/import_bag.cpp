@@ -1,4 +1,4 @@
-// azimuth import of bags.
+// azimuth import: the import of ROS bags.
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ BagFile open_bag(const ImportOptions& options, ProgressBar& bar) {
   return *std::move(bag);
 }
 
-/// LEFT,RIGHT.
+/// Reads --joints LEFT,RIGHT.
 BagWheels wheels_in(const ImportOptions& options) {
   BagWheels wheels{options.wheels, {}, {}};
   if (options.joints.empty()) return wheels;
@@ -65,7 +65,7 @@ void tell_damage(const std::string& file, const BagFile& bag) {
     print_error(visible(file) + ": " + bag.damage() + ": cut short, or not closed? All else was read");
 }
 
-/// One of several parts was given: the drive goes on in the next.
+/// Prints a note if the user gave one of several parts of a bag.
 void tell_parts(const ImportOptions& options) {
   if (options.parts.size() != 1) return;
   const std::filesystem::path& file = options.parts.front();
@@ -110,7 +110,7 @@ std::string place_text(const CameraMounting& mounting) {
                      mounting.base, p_m.x(), p_m.y(), p_m.z(), leaning);
 }
 
-/// What /tf_static says of where the camera stands, into the rig that is copied; or for who makes one.
+/// Writes the camera's mounting from /tf_static into the copied rig, or returns it as a note for the user to enter.
 std::string take_mounting(const BagFile& bag, const BagChoice& choice, Run& run) {
   const std::optional<CameraMounting> mounting = camera_mounting(bag, choice);
   if (!mounting) return {};
@@ -122,7 +122,7 @@ std::string take_mounting(const BagFile& bag, const BagChoice& choice, Run& run)
   return says + ", which the rig says now";
 }
 
-/// Of tables.
+/// Refuses options that only tables take.
 void check_bag_options(const ImportOptions& options) {
   const bool tables = !options.columns.empty() || !options.bearings.empty() || !options.bearings_columns.empty() ||
                       !options.truth_columns.empty() || !options.stamps_columns.empty() || options.stamps != "name";

@@ -1,4 +1,4 @@
-// azimuth import: recordings of other programs as a run.
+// azimuth import: makes a run from the recordings of other programs.
 
 #include <algorithm>
 #include <array>
@@ -15,6 +15,7 @@
 #include "settings/rig.hpp"
 #include "settings/sample_sentence.hpp"
 #include "tools/azimuth/command.hpp"
+#include "tools/azimuth/convert_run.hpp"
 #include "tools/azimuth/import_options.hpp"
 #include "tools/azimuth/interrupt.hpp"
 #include "tools/azimuth/output_path.hpp"
@@ -27,7 +28,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kRig = "rig.toml";
 
-/// What is written would replace it.
+/// Refuses an input file that the output would replace.
 void refuse_own_output(const fs::path& input, const fs::path& out) {
   for (const fs::path& output :
        {out, out / "odometry.csv", out / "bearings.csv", out / "frames.csv", out / "truth.csv"}) {
@@ -44,8 +45,8 @@ StampSpan span_of(const Samples& samples) {
   return span;
 }
 
-/// Says so when samples lie wholly outside of the odometry's time: nothing will come of them. Or when most do, and
-/// would not in another unit.
+/// Prints a note if the stamps of most samples lie outside the odometry's time: such samples give no estimate. The note
+/// names the likely unit or clock.
 template <class Samples>
 void compare_clocks(const Run& run, const Samples& samples, const char* what) {
   if (samples.empty()) return;
@@ -81,15 +82,23 @@ void refuse_what_is_no_source(const fs::path& source) {
   std::ifstream stream(source, std::ios::binary);
   stream.read(start.data(), start.size());
   const std::string_view begin(start.data(), static_cast<std::size_t>(stream.gcount()));
-  if (begin.starts_with("\xED\xA1\xDA\x01"))
-    refuse(source.string() +
-           ": is an LCM log: azimuth replay reads it as it is, azimuth convert makes a run folder of it");
   if (const std::string_view packed = packed_as(std::as_bytes(std::span(begin))); !packed.empty() && !is_bag(source))
     refuse(source.string() + ": " + std::string(packed));
 }
 
+/// Imports a run in its other form. An LCM log of another program may have channels with other names.
+void import_run(const ImportOptions& options) {
+  if (options.out.empty()) refuse(options.source.string() + ": is a run already; to copy it, say where: OUT");
+  Conversion conversion{.in = options.source, .out = options.out, .force = options.force};
+  conversion.log = options.log;
+  conversion.log.odometry_alone = true;
+  conversion.log.rig_file = options.rig;
+  convert(conversion);
+}
+
 void import_recording(ImportOptions options) {
   const Interruptible interruptible;
+  if (is_run(options.source)) return import_run(options);
   std::error_code ignored;
   if (fs::is_directory(options.source, ignored)) {
     FileResult<std::vector<fs::path>> bag = bag_in_folder(options.source);
@@ -103,40 +112,43 @@ void import_recording(ImportOptions options) {
 }
 
 void add_bag_options(CLI::App& command, ImportOptions& options) {
-  command.add_option("--odometry", options.odometry, "Of a bag: the topic of odometry, where there are several");
+  command.add_option("--odometry", options.odometry, "Topic of odometry in a bag, where there are several");
   command.add_option("--joints", options.joints,
-                     "Of a bag: the wheels in sensor_msgs/JointState, LEFT,RIGHT, unless their names say so");
-  command.add_option(
-      "--sender", options.senders,
-      "Of a bag: whose messages to take where several send on one topic: a node or channel, or a frame of "
-      "odometry; several for several topics");
+                     "Names of the wheels in a bag's sensor_msgs/JointState, LEFT,RIGHT, unless the names themselves "
+                     "say which is which");
+  command.add_option("--sender", options.senders,
+                     "Sender whose messages to take where several send on one topic of a bag: a node or channel, or a "
+                     "frame of odometry; may be repeated for several topics");
 }
 
 void add_table_options(CLI::App& command, ImportOptions& options) {
   command.add_option(
       "--columns", options.columns,
-      "Of SOURCE: VALUE=COLUMN[UNIT],... for t_s, x_m, y_m and heading_rad (or qx, qy, qz, qw; or left_m "
-      "and right_m of wheels; or speed_m_s and turn_rad_s): t_s=stamp[ns],x_m=px,y_m=py,heading_rad=yaw[deg]; "
-      "t_s=SECONDS+NANOSECONDS is a stamp in two columns; by name, or by number from 1; a minus sign before it turns "
-      "the "
-      "value's sign");
+      "Columns of SOURCE, VALUE=COLUMN[UNIT],... for t_s, x_m, y_m and heading_rad (or qx, qy, qz, qw; or left_m and "
+      "right_m of wheels; or speed_m_s and turn_rad_s): t_s=stamp[ns],x_m=px,y_m=py,heading_rad=yaw[deg]; "
+      "t_s=SECONDS+NANOSECONDS is a stamp in two columns; COLUMN is a name, or a number from 1; a minus sign before "
+      "COLUMN turns the value's sign");
   command.add_option("--bearings", options.bearings, "Table of bearings");
-  command.add_option("--bearings-columns", options.bearings_columns,
-                     "Of that table: t_s, azimuth_rad, and elevation_rad, landmark_id, kind, sigma_rad if it has them; "
-                     "clockwise ones: azimuth_rad=-bearing[deg]");
-  command.add_option("--truth", options.truth, "Table of true poses; of a bag, their topic");
-  command.add_option("--truth-columns", options.truth_columns, "Of that table, as of SOURCE");
-  command.add_option("--images", options.images, "Folder of images, JPEG or PNG; of a bag, their topic");
+  command.add_option(
+      "--bearings-columns", options.bearings_columns,
+      "Columns of the table of bearings, as in --columns: t_s, azimuth_rad, and elevation_rad, landmark_id, kind, "
+      "sigma_rad if the table has them; clockwise azimuths: azimuth_rad=-bearing[deg]");
+  command.add_option("--truth", options.truth, "Table of true poses; in a bag, their topic");
+  command.add_option("--truth-columns", options.truth_columns, "Columns of the table of true poses, as in --columns");
+  command.add_option("--images", options.images, "Folder of images, JPEG or PNG; in a bag, their topic");
   command
       .add_option("--stamps", options.stamps,
-                  "Of the images: a table, or name, name[ms], name[us], name[ns]: the last number in the files' names")
+                  "Stamps of the images: a table, or name, name[ms], name[us], name[ns] for the last number in the "
+                  "files' names")
       ->capture_default_str();
-  command.add_option("--stamps-columns", options.stamps_columns, "Of that table: t_s and file");
+  command.add_option("--stamps-columns", options.stamps_columns,
+                     "Columns of the table of --stamps, as in --columns: t_s and file");
   const auto length = CLI::Range(1e-4, 100.0);
   command
-      .add_option("--wheel-radius", options.wheels.radius_m, "Of both wheels, in metres, for left_rad and right_rad")
+      .add_option("--wheel-radius", options.wheels.radius_m,
+                  "Radius of both wheels, in metres, for left_rad and right_rad")
       ->check(length);
-  command.add_option("--track", options.wheels.track_m, "Between the wheels, in metres")->check(length);
+  command.add_option("--track", options.wheels.track_m, "Distance between the wheels, in metres")->check(length);
 }
 
 }  // namespace
@@ -179,20 +191,21 @@ void finish_import(const ImportOptions& options, const Run& run, const std::vect
 }
 
 void add_import_command(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("import", "Make a run of the recordings of other programs: tables, images, ROS bags");
+  CLI::App* command = app.add_subcommand("import", "Make a run from recordings: tables, images, ROS bags, LCM logs");
   const auto options = std::make_shared<ImportOptions>();
   command
       ->add_option("SOURCE", options->source,
-                   "Table of odometry, or a bag of ROS: of ROS 1, MCAP, .db3, or a folder with one, whole or in parts")
+                   "Table of odometry; or a ROS bag (ROS 1, MCAP, .db3), or a folder with a bag, whole or in parts; or "
+                   "an LCM log")
       ->required();
-  command->add_option(
-      "OUT", options->out,
-      "LCM log if it ends in .lcmlog, .lcm or .log, else a run folder; of a bag, without it: list what is in it");
+  command->add_option("OUT", options->out,
+                      "Run to write: an LCM log if the name ends in .lcmlog, .lcm or .log, else a run folder; without "
+                      "it the topics of a bag are listed");
   add_table_options(*command, *options);
   add_bag_options(*command, *options);
+  add_channel_options(*command, options->log);
   command->add_option("--rig", options->rig, "rig.toml to copy into OUT");
-  command->add_flag("--force", options->force, "Replace OUT");
+  command->add_flag("--force", options->force, "Replace OUT if it exists");
   command->callback([options] { import_recording(*options); });
 }
 

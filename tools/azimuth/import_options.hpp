@@ -1,5 +1,5 @@
 #pragma once
-// What azimuth import was asked for, and its two ways. Internal to tools/azimuth.
+// The options of azimuth import, and the imports of tables and bags. Internal to tools/azimuth.
 
 #include <filesystem>
 #include <string>
@@ -16,35 +16,35 @@ struct ImportOptions {
   std::filesystem::path source, out, rig;
   bool force = false;
   Wheels wheels;
-  std::string truth, images;  ///< a file and a folder beside a table; topics of a bag
+  std::string truth, images;  ///< with a table: a file and a folder; with a bag: topics
   // Tables only.
   std::string columns, truth_columns, stamps = "name", stamps_columns, bearings_columns;
   std::filesystem::path bearings;
   // Bags only.
   std::vector<std::filesystem::path> parts;  ///< the files of SOURCE, in their order
   std::string odometry;
-  std::vector<std::string> senders;  ///< of topics that several send: nodes, channels, or a frame of odometry
+  std::vector<std::string> senders;  ///< senders to choose: nodes, channels, or a frame of odometry
   std::string joints;                ///< LEFT,RIGHT: the names of the wheels
+  LogOptions log;                    ///< the channels of an LCM log
 };
 
-/// What import_tables() and import_bag() have in common: refuses an output that may not be written, or that is one of
-/// the inputs.
+/// Refuses an output that must not be written, or that is one of the inputs.
 void check_import(const ImportOptions& options);
 
-/// Gives `run` its rig: that of --rig, else what is in the output folder already. One that has mistakes is refused.
+/// Gives `run` its rig, from --rig or else from the output folder. Refuses a rig with mistakes.
 void find_rig(const ImportOptions& options, Run& run);
 
-/// Writes the run, and says what is in it, what is to be known of it (`sentences`), and what comes next.
+/// Writes the run, and prints its content, the notes in `sentences`, and the next command.
 void finish_import(const ImportOptions& options, const Run& run, const std::vector<std::string>& sentences,
                    UnfinishedRun& unfinished);
 
-/// Shows how far something is, and ends it where Ctrl-C was pressed.
+/// Shows the progress on the bar, and throws once Ctrl-C was pressed.
 WriteProgress shown_and_interruptible(ProgressBar& bar);
 
-/// Tables of other programs, and folders of images.
+/// Imports tables of other programs, and folders of images.
 void import_tables(const ImportOptions& options);
 
-/// Bags of ROS; without an output, what is in one.
+/// Imports a ROS bag. Without an output it lists the bag's topics.
 void import_bag(const ImportOptions& options);
 
 }  // namespace azimuth

@@ -1,4 +1,4 @@
-// azimuth import of tables.
+// azimuth import: the import of tables.
 
 #include <initializer_list>
 #include <optional>
@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Gathers what is wrong with all tables before anything is refused.
+/// Reads tables and gathers the errors of all of them, before anything is refused.
 struct TableReader {
   FileErrors errors;
 
@@ -28,7 +28,7 @@ struct TableReader {
     return std::nullopt;
   }
 
-  /// What `read(table)` makes of a file; nothing when there is none, or it is wrong.
+  /// Returns the rows that `read(table)` makes of a file. The rows are empty without a file, or if it has errors.
   template <class Read>
   auto rows(const fs::path& file, const std::string& columns, const char* option, Read read) {
     using Rows = typename decltype(read(ForeignText{}))::value_type;
@@ -45,7 +45,7 @@ std::string unit_in(const std::string& stamps) {
   return stamps.size() == kName ? "s" : stamps.substr(kName + 1, stamps.size() - kName - 2);
 }
 
-/// name, name[ns] and the like are no table.
+/// Whether the stamps are in the files' names (name, name[ns]) and not in a table.
 bool are_in_names(const std::string& stamps) {
   return stamps == "name" || (stamps.starts_with("name[") && stamps.ends_with(']'));
 }
@@ -79,7 +79,7 @@ Run read_run(const ImportOptions& options, std::vector<SourceImage>& images, std
   return run;
 }
 
-/// Columns of a table that was not given would be passed over without a word.
+/// Refuses columns of a table that was not given; otherwise they would be ignored silently.
 void check_columns(const ImportOptions& options) {
   const auto needs = [](const std::string& columns, const char* option, bool there, const char* table) {
     if (!columns.empty() && !there) refuse(std::string(option) + " needs " + table);

@@ -2,10 +2,10 @@
 
 namespace azimuth {
 
-/// While one lives, Ctrl-C and SIGTERM are noted, so that what is half written can go; the next one ends the program at
-/// once. Not two at a time.
+/// While an object of this class lives, the first Ctrl-C or SIGTERM is only noted, so that half-written output can be
+/// removed. The next one ends the program at once. At most one object may live at a time.
 ///
-/// Thread contract: of the only thread.
+/// Thread contract: for single-threaded programs.
 class Interruptible {
  public:
   Interruptible();
@@ -13,7 +13,7 @@ class Interruptible {
   Interruptible(const Interruptible&) = delete;
   Interruptible& operator=(const Interruptible&) = delete;
 
-  /// Throws what ends the program with kInterrupted, once it was asked to end.
+  /// Throws CommandError with kInterrupted once a signal was noted.
   static void check();
 };
 

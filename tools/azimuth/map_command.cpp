@@ -1,5 +1,5 @@
-// azimuth map: maps that last. save makes one from a recorded run, info says what one is, export hands it to other
-// programs; merge is in a file of its own.
+// azimuth map: works with saved maps. save makes a map from a recorded run, info describes a map, export writes it for
+// other programs. merge and refine have files of their own.
 
 #include <cstdio>
 #include <memory>
@@ -25,8 +25,8 @@ void save_map(const ReplayOptions& options, const std::filesystem::path& file) {
   const ReplayResult result = replay_with(setup);
   write_outputs(
       setup, result,
-      report_of(setup, result, estimator_name(setup.rig, setup.configuration, setup.map ? &setup.map->map : nullptr),
-                outputs),
+      report_of(setup, result,
+                name(chosen_estimator(setup.rig, setup.configuration, setup.map ? &setup.map->map : nullptr)), outputs),
       outputs);
 }
 
@@ -64,16 +64,16 @@ void add_save(CLI::App& map) {
   command->add_option("RUN", options->run, kRunHelp)->required();
   add_run_options(*command, *options);
   add_start_map_options(*command, *options, "--from");
-  command->add_option("--map", *file, "Map file to write; the one before is kept as FILE.previous")->required();
+  command->add_option("--map", *file, "Map file to write; the earlier map is kept as FILE.previous")->required();
   command->callback([options, file] { save_map(*options, *file); });
 }
 
 void add_info(CLI::App& map) {
-  CLI::App* command = map.add_subcommand("info", "Say what a map file holds; 2: nothing that can be read");
+  CLI::App* command = map.add_subcommand("info", "Describe a map file; exit code 2: it cannot be read");
   const auto file = std::make_shared<std::filesystem::path>();
   const auto json = std::make_shared<bool>(false);
   command->add_option("FILE", *file, "Map file")->required();
-  command->add_flag("--json", *json, "As one JSON object");
+  command->add_flag("--json", *json, "Print the description as one JSON object");
   command->callback([file, json] {
     const LoadedMap loaded = load_map_or_refuse(*file);
     std::fputs((*json ? map_summary_json(loaded) : visible_lines(map_summary(loaded))).c_str(), stdout);
@@ -84,12 +84,12 @@ void add_export(CLI::App& map) {
   CLI::App* command = map.add_subcommand("export", "Write a map in a format that other programs read");
   const auto options = std::make_shared<ExportOptions>();
   command->add_option("FILE", options->file, "Map file")->required();
-  command->add_option("--format", options->format, "geojson or csv")
+  command->add_option("--format", options->format, "Format to write: geojson or csv")
       ->check(CLI::IsMember({"geojson", "csv"}))
       ->capture_default_str();
-  command->add_option("-o,--out", options->out, "File to write; without it, standard output");
+  command->add_option("-o,--out", options->out, "File to write; without it standard output");
   command->add_option("--origin", options->origin,
-                      "GeoJSON: where the map's origin lies and where its x axis points, LAT,LON[,HEADING] in degrees, "
+                      "Place of the map's origin and heading of its x axis in GeoJSON, LAT,LON[,HEADING] in degrees, "
                       "heading clockwise from north; without it coordinates are metres in the map's frame (crs null)");
   command->callback([options] { export_map(*options); });
 }
@@ -97,12 +97,13 @@ void add_export(CLI::App& map) {
 }  // namespace
 
 void add_map_command(CLI::App& app) {
-  CLI::App* map = app.add_subcommand("map", "Save maps, look into them, merge them, hand them on");
+  CLI::App* map = app.add_subcommand("map", "Save, describe, export, merge and refine maps");
   map->require_subcommand(1);
   add_save(*map);
   add_info(*map);
   add_export(*map);
   add_map_merge_command(*map);
+  add_map_refine_command(*map);
 }
 
 }  // namespace azimuth

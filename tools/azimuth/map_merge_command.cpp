@@ -1,4 +1,4 @@
-// azimuth map merge: maps of several drives in one building, made one.
+// azimuth map merge: makes one map from the maps of several drives in one building.
 
 #include <cmath>
 #include <fmt/format.h>
@@ -30,7 +30,7 @@ struct NamedMap {
   MapSnapshot map;
 };
 
-/// `a` is a file, or "the maps before it".
+/// Explains the refusal. `a` is the name of a file, or "the maps before it".
 std::string sentence(MergeRefusal refusal, const std::string& a, const std::string& b) {
   switch (refusal) {
     case MergeRefusal::none:
@@ -50,7 +50,7 @@ std::string sentence(MergeRefusal refusal, const std::string& a, const std::stri
   return "";
 }
 
-/// Once several have become one it can no longer be seen what was made from what, so each is held against each before.
+/// Compares each map with each before any merge. After a merge it would be hidden that one map was made from another.
 void check_pairs(const std::vector<NamedMap>& maps, const Progress& progress) {
   std::size_t checked = 0;
   for (std::size_t b = 0; b < maps.size(); ++b)
@@ -70,8 +70,8 @@ void tell(const MergedMaps& merged, const NamedMap& b, std::size_t known) {
       merged.T_a_b.y_m, sigma(merged, 1), rad_to_degrees(merged.T_a_b.heading_rad), rad_to_degrees(sigma(merged, 2)));
 }
 
-/// All maps made one, in the frame of the first. One that overlaps none of those so far may overlap a later one, so it
-/// is tried again as long as others are added.
+/// Merges all maps, in the frame of the first. A map that does not overlap the merged ones may overlap a later one, so
+/// it is tried again as long as other maps are added.
 MapSnapshot merged_maps(std::vector<NamedMap> maps, bool quiet) {
   NamedMap whole = std::move(maps.front());
   maps.erase(maps.begin());
@@ -113,17 +113,17 @@ void merge(const MergeOptions& options) {
 }  // namespace
 
 void add_map_merge_command(CLI::App& map) {
-  CLI::App* command = map.add_subcommand("merge", "Make one map of several drives in one building");
+  CLI::App* command = map.add_subcommand("merge", "Make one map from several drives in one building");
   const auto options = std::make_shared<MergeOptions>();
-  command->add_option("MAPS", options->maps, "Map files, of drives that know nothing of each other; two at least")
+  command->add_option("MAPS", options->maps, "Map files of independent drives, at least two")
       ->required()
       ->expected(2, 1000);
-  command->add_option("-o,--out", options->out, "Map file to write; the one before is kept as FILE.previous")
+  command->add_option("-o,--out", options->out, "Map file to write; the earlier map is kept as FILE.previous")
       ->required();
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");
   command->footer(
-      "Where the maps lie is found from the landmarks that they have in common. The merged map is in the frame of the\n"
-      "first, with its robot's pose; a landmark of several maps is there once, and known better than from each alone.");
+      "The command finds the maps' places from their common landmarks. The merged map has the frame of the first map "
+      "and\nits robot's pose. It has a landmark of several maps once, more accurate than in each map alone.");
   command->callback([options] { merge(*options); });
 }
 

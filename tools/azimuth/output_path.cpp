@@ -12,14 +12,14 @@
 namespace azimuth {
 namespace {
 
-/// Neither a link, through which is written, nor a pipe.
+/// Whether a rename may replace the file: it is neither a link nor a pipe, which must be written through.
 bool may_be_replaced(const std::filesystem::path& file) {
   std::error_code ignored;
   const std::filesystem::file_status status = std::filesystem::symlink_status(file, ignored);
   return !std::filesystem::exists(status) || std::filesystem::is_regular_file(status);
 }
 
-/// Beside the log, where it is until it is whole.
+/// The temporary file beside a log, which holds the log until it is complete.
 class PartOfLog {
  public:
   explicit PartOfLog(const std::filesystem::path& log) : file_(log.string() + ".part") {}

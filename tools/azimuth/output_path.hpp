@@ -5,21 +5,21 @@
 
 namespace azimuth {
 
-/// Where a run is written to: an LCM log when the name ends in .lcmlog, .lcm or .log, else a folder.
+/// Whether a run is written as an LCM log: its name ends in .lcmlog, .lcm or .log. Any other name is a run folder.
 bool is_log_name(const std::filesystem::path& out);
 
-/// Refuses an output that exists already unless `force`. A folder that is there but empty is no obstacle.
+/// Refuses an output that exists already, unless `force` is set. An empty folder is accepted.
 void check_output(const std::filesystem::path& out, bool force);
 
-/// Refuses the name of a picture whose ending is of no format that can be drawn.
+/// Refuses the name of a picture whose ending is not a supported format.
 void check_picture_name(const std::filesystem::path& file);
 
-/// Fails where a file could not be written, so that nobody waits for what then is lost. Nothing is left behind, and a
-/// file that is there stays as it is. An empty path, and what is no regular file, is passed over.
+/// Fails if a file could not be written, so that nobody waits for a result that is then lost. The check leaves no file
+/// behind and does not change an existing file. It ignores an empty path, and anything that is not a regular file.
 void check_writable(const std::filesystem::path& file);
 
-/// Writes in the form that the name asks for. A log is there as a whole or, when that fails or `progress` throws, as it
-/// was before.
+/// Writes the run in the form that the name asks for. A log is replaced only as a whole: if writing fails or `progress`
+/// throws, the earlier log stays.
 void write_run(const Run& run, const std::filesystem::path& out, const WriteProgress& progress = {});
 
 }  // namespace azimuth

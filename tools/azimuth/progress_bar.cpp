@@ -12,11 +12,11 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kLong = 500ms;  // before the bar is worth a line
+constexpr auto kLong = 500ms;  // shorter work shows no bar
 constexpr auto kRefresh = 100ms;
 constexpr std::size_t kCells = 30;
 
-/// Rounded up: who waits is not to be told that nothing is left while something is.
+/// Rounds up, so that the text never says that no time is left before the end.
 std::string time_left(double left_s) {
   const double whole_s = std::ceil(left_s);
   if (whole_s < 100.0) return fmt::format("{:.0f} s left", whole_s);

@@ -7,7 +7,7 @@
 
 namespace azimuth {
 
-/// A line that says how much is done and how long the rest will take at this pace. `what`: of what there are so many.
+/// Returns a line with the share that is done and the time left at this pace. `what` names the counted things.
 std::string progress_text(const std::string& what, std::size_t done, std::size_t all, double elapsed_s);
 
 /// A bar on standard error that shows up only for work that takes long, and only on a terminal.
@@ -15,19 +15,19 @@ std::string progress_text(const std::string& what, std::size_t done, std::size_t
 /// Thread contract: thread-bound.
 class ProgressBar {
  public:
-  /// `what` is counted, e.g. "images"; empty: it has no name.
+  /// `what` names the counted things, e.g. "images"; empty: no name.
   explicit ProgressBar(bool wanted, std::string what = {});
   ~ProgressBar() { clear(); }
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// Cheap enough to be called for every step.
+  /// Draws the bar if it is due. Cheap enough to be called for every step.
   void update(std::size_t done, std::size_t all);
-  /// For who does the work. Borrows the bar.
+  /// Returns a listener that updates the bar. It borrows the bar.
   Progress listener() {
     return [this](std::size_t done, std::size_t all) { update(done, all); };
   }
-  /// Leaves an empty line for what is printed next.
+  /// Erases the bar, which leaves an empty line for the next output.
   void clear();
 
  private:

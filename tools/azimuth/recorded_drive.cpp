@@ -21,11 +21,11 @@ bool have_looks_alone(const ReplaySetup& setup) {
 
 std::unique_ptr<Estimator> naming_filter(const ReplaySetup& setup) {
   Configuration by_rig = setup.configuration;
-  by_rig.estimator = "by_rig";
+  by_rig.estimator = EstimatorKind::by_rig;
   return configured_estimator(setup.rig, by_rig, nullptr);
 }
 
-/// As if bearings had never carried any, where the rig or the command line says so.
+/// Removes the names from all bearings, where the rig or the command line says that there are none.
 void leave_names_out(std::vector<BearingSet>& sets) {
   for (BearingSet& set : sets)
     for (Bearing& bearing : set.bearings) bearing.identity = kUnknownIdentity;
@@ -67,8 +67,8 @@ void refuse_if_unfit(const DriveSolution& solution, const std::string& run) {
 }
 
 void add_calibration_outputs(CLI::App& command, CalibrationOutputs& outputs) {
-  command.add_option("--out", outputs.rig, "Write a rig.toml: that of the run with what was found");
-  command.add_flag("--force", outputs.force, "Replace it if it exists");
+  command.add_option("--out", outputs.rig, "Write a rig.toml: the run's rig with the values that were found");
+  command.add_flag("--force", outputs.force, "Replace the file of --out if it exists");
   command.add_option("--picture", outputs.picture,
                      "Draw path, map and odometry before and after; the name ends in .png, .svg or .pdf");
 }

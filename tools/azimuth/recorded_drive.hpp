@@ -1,5 +1,5 @@
 #pragma once
-// A run as a drive to be fitted, for the subcommands that judge its rig.
+// Reads a run as a drive to be fitted, for the subcommands that judge its rig.
 
 #include <cstdint>
 #include <optional>
@@ -16,33 +16,33 @@ struct RecordedDrive {
   Drive drive;
 };
 
-/// Adds RUN and what else says what is read.
+/// Adds RUN and the options of add_run_options().
 void add_drive_options(CLI::App& command, ReplayOptions& options);
 
-/// Who says which is which of landmarks that have looks, but no names.
+/// Source of the data association for landmarks that have looks, but no names.
 enum class NamedBy : std::uint8_t {
-  filter,  ///< that of a replay: it knows what it sees again, if the rig is about right
-  eye,     ///< nobody who goes by the rig: see name_by_eye()
+  filter,  ///< the filter of a replay, which recognises landmarks if the rig is about right
+  eye,     ///< tracks from image to image, without the rig: see name_by_eye()
 };
 
-/// Looks at images if need be. Refuses what is of no use, with the likely cause; not what merely cannot tell. With a
-/// `rig`: see replay_setup().
+/// Reads the drive, from images if it has no bearings. Refuses a useless run with the likely cause, but accepts a run
+/// that merely cannot tell enough. For `rig` see replay_setup().
 RecordedDrive recorded_drive(const ReplayOptions& options, NamedBy named_by, const std::optional<Rig>& rig = {});
 
-/// Too few of its bearings fit for any number of the fit to mean anything.
+/// Refuses a drive if so few of its bearings fit that the numbers of the fit mean nothing.
 void refuse_if_unfit(const DriveSolution& solution, const std::string& run);
 
-/// Where things are written that a calibration found. Empty: not asked for.
+/// The output files of a calibration. An empty path is not written.
 struct CalibrationOutputs {
   std::filesystem::path rig, picture;
   bool force = false;
 };
 void add_calibration_outputs(CLI::App& command, CalibrationOutputs& outputs);
-/// Refuses and fails before any work.
+/// Refuses or fails before any work if an output cannot be written.
 void check_outputs(const CalibrationOutputs& outputs);
-/// Checked by reading it back first.
+/// Reads the text as a rig first, and then writes it.
 void write_rig_text(const std::string& text, const std::filesystem::path& file);
-/// With `comment` above, lines that begin with #.
+/// Writes the rig below `comment`, whose lines begin with #.
 void write_rig(const Rig& rig, const std::string& comment, const std::filesystem::path& file);
 
 }  // namespace azimuth

@@ -1,4 +1,4 @@
-// azimuth replay: a run through the estimator, as fast as it goes, and how good the outcome is.
+// azimuth replay: runs the estimator over a recorded run, as fast as possible, and judges the estimates.
 
 #include <algorithm>
 #include <cstdio>
@@ -62,7 +62,8 @@ void replay_run(const ReplayOptions& given, const ReplayOutputs& outputs, HtmlOu
   const auto& options = setup.options;
   const Run& run = setup.run;
   const auto recorded = verifies ? recorded_poses_of(options, run) : std::vector<RecordedPose>{};
-  const std::string estimator(estimator_name(setup.rig, setup.configuration, setup.map ? &setup.map->map : nullptr));
+  const std::string estimator(
+      name(chosen_estimator(setup.rig, setup.configuration, setup.map ? &setup.map->map : nullptr)));
   if (!outputs.tum_smoothed.empty() && estimator != "smoother")
     refuse("--tum-smoothed: estimator \"" + estimator +
            "\" decides at once and never again; use --set "
@@ -81,7 +82,7 @@ void replay_run(const ReplayOptions& given, const ReplayOutputs& outputs, HtmlOu
   judge_end(options, result, report);
 }
 
-/// One after the other, each as if it were alone; what is wrong with one keeps no other from its turn.
+/// Replays the runs one after the other, independently of each other. An error in one run does not stop the others.
 void replay_runs(ReplayOptions options, const ReplayOutputs& outputs, bool verifies,
                  const std::vector<std::filesystem::path>& runs) {
   const auto files = outputs.files();
@@ -114,7 +115,8 @@ void replay_runs(ReplayOptions options, const ReplayOutputs& outputs, bool verif
 }  // namespace
 
 void add_replay_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("replay", "Run the estimator over a recorded run and report how good it is");
+  CLI::App* command =
+      app.add_subcommand("replay", "Run the estimator over a recorded run and report how good its estimates are");
   const auto options = std::make_shared<ReplayOptions>();
   const auto outputs = std::make_shared<ReplayOutputs>();
   const auto verifies = std::make_shared<bool>(false);
@@ -125,20 +127,23 @@ void add_replay_command(CLI::App& app) {
   add_report_options(*command, *outputs, "Write the report as JSON");
   command->add_option("--plot", outputs->plot, "Draw the map; the name ends in .png, .svg or .pdf");
   command->add_option("--pictures", options->pictures,
-                      "Draw images with what was seen and expected in them into this folder (JPEG)");
-  command->add_option("--every", options->every, "Draw the first of so many images each")
+                      "Draw images with their seen and expected landmarks into this folder (JPEG)");
+  command
+      ->add_option("--every", options->every, "Interval of the images that --pictures draws; 10 draws each tenth image")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   command->add_option("--tum", outputs->tum, "Write the trajectory in TUM format");
-  command->add_option("--tum-smoothed", outputs->tum_smoothed,
-                      "Likewise as it is known at the end, with an estimator that decides in hindsight");
+  command->add_option(
+      "--tum-smoothed", outputs->tum_smoothed,
+      "Write the trajectory in TUM format as it is known at the end, with an estimator that decides in hindsight");
   add_export_options(*command, outputs->exports);
   add_html_options(*command, outputs->html);
-  command->add_flag("--verify", *verifies, "Compare the poses with the recorded ones, bit for bit; 1: they differ");
+  command->add_flag("--verify", *verifies,
+                    "Compare the poses with the recorded ones, bit for bit; exit code 1: they differ");
   add_truth_options(*command, *options);
   command->footer(
-      "Exit codes: 0 done, 1 poses differ or a file could not be written, 2 wrong use or input, or nothing came "
-      "of it, 3 the run ends lost.");
+      "Exit codes: 0 done, 1 poses differ or a file could not be written, 2 wrong use or input, or no estimate, 3 the "
+      "run ends lost.");
   command->callback([options, outputs, verifies, runs] { replay_runs(*options, *outputs, *verifies, *runs); });
 }
 

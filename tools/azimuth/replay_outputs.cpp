@@ -19,7 +19,7 @@
 namespace azimuth {
 namespace {
 
-/// Of estimates, or of the past.
+/// Writes the estimates, or the past poses, in TUM format.
 template <class Poses>
 void write_tum_file(const Poses& poses, const std::filesystem::path& file) {
   std::vector<std::pair<Stamp, Pose2>> trajectory;
@@ -64,12 +64,13 @@ void add_report_options(CLI::App& command, ReplayOutputs& outputs, const std::st
                       std::ranges::none_of(text, [](unsigned char c) { return std::iscntrl(c) != 0; });
     return good ? std::string() : std::string("must be a text of one line, of 200 bytes at most");
   };
-  command.add_option("--name", outputs.name, "Name of the run in its report, by which azimuth compare finds its pair")
+  command
+      .add_option("--name", outputs.name, "Name of the run in its report; azimuth report compare pairs reports by name")
       ->check(CLI::Validator(word, ""))
       ->needs(report);
   command
       .add_option("--tag", outputs.tags,
-                  "Tag of the run in its report, by which azimuth compare sums up; may be repeated")
+                  "Tag of the run in its report; azimuth report compare sums up runs by tag; may be repeated")
       ->check(CLI::Validator(word, ""))
       ->allow_extra_args(false)
       ->needs(report);
@@ -91,7 +92,7 @@ void write_outputs(const ReplaySetup& setup, const ReplayResult& result, const R
   if (!outputs.plot.empty()) write_plot(setup, result, report, outputs.plot);
   if (!outputs.map.empty()) write_map_of(setup, result, report, outputs.map);
   if (!setup.options.quiet) tell_of_exports(outputs.exports);
-  if (!result.estimates.empty())  // else judge_end() has something to say
+  if (!result.estimates.empty())  // judge_end() reports a run without estimates
     write_exports(exported == ExportedPoses::refined ? refined_of(setup.run, result) : estimated_of(setup.run, result),
                   outputs.exports);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What subcommands that replay a run make of the outcome.
+// The outputs of a replay, shared by the subcommands that replay a run.
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
@@ -16,42 +16,42 @@
 
 namespace azimuth {
 
-/// Files to write. Empty: not asked for.
+/// Files to write. An empty path is not written.
 struct ReplayOutputs {
   std::filesystem::path report, plot, tum, tum_smoothed, map;
-  std::string name;               ///< of the run, in the report
-  std::vector<std::string> tags;  ///< likewise
+  std::string name;               ///< name of the run in the report
+  std::vector<std::string> tags;  ///< tags of the run in the report
   ExportWishes exports;
-  HtmlWishes html;  ///< of all runs together: see HtmlOutput
+  HtmlWishes html;  ///< one page of all runs, see HtmlOutput
 
   std::vector<std::filesystem::path> files() const { return {report, plot, tum, tum_smoothed, map}; }
 };
 
-/// Refuses and fails before the run, which may take long.
+/// Refuses or fails before the replay, which may take long, if an output cannot be written.
 void check_outputs(const ReplayOutputs& outputs);
 
 /// Which poses are exported.
 enum class ExportedPoses : std::uint8_t {
-  as_they_came,  ///< those of the steps, as they were known then
-  refined,       ///< as they are known at the end
+  as_they_came,  ///< the poses as they were known at each step
+  refined,       ///< the poses as they are known at the end
 };
 
 /// Adds --report, --name and --tag.
 void add_report_options(CLI::App& command, ReplayOutputs& outputs, const std::string& report_help);
 
-/// The outcome beside the run, judged. `estimator` is what the report calls it.
+/// Judges the result of a replay. The report names the estimator `estimator`.
 Report report_of(const ReplaySetup& setup, const ReplayResult& result, std::string_view estimator,
                  const ReplayOutputs& outputs);
 
-/// All that were asked for. A map there must be.
+/// Writes all requested outputs. Fails if a map is requested but there is none.
 void write_outputs(const ReplaySetup& setup, const ReplayResult& result, const Report& report,
                    const ReplayOutputs& outputs, ExportedPoses exported = ExportedPoses::as_they_came);
 
-/// Fails where it could not be started from. How many bytes it takes.
+/// Writes the map and returns its size [bytes]. Fails if no estimator could start from the map.
 std::size_t write_map_file(const MapSnapshot& map, const std::filesystem::path& file);
 
-/// Refuses a run from which nothing came, and throws kEndsLost for one which ends where nobody knows: neither must pass
-/// for a good one.
+/// Refuses a run without a step or without a used bearing, and throws kEndsLost for a run that ends lost, so that
+/// neither passes for a good run.
 void judge_end(const ReplayOptions& options, const ReplayResult& result, const Report& report);
 
 }  // namespace azimuth

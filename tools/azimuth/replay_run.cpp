@@ -17,7 +17,7 @@
 namespace azimuth {
 namespace {
 
-/// The run, with the truth that was given beside it.
+/// Reads the run, with the truth that the options give.
 Run run_of(const ReplayOptions& options) {
   Run run = load_run_or_refuse(options.run, options.log);
   FileErrors errors;
@@ -40,7 +40,7 @@ Rig rig_of(const ReplayOptions& options, Rig rig) {
   return rig;
 }
 
-/// `--set front_end=sift` means the rig, not the configuration.
+/// Moves `--set front_end=sift` to the front end of the rig, since it is not a key of the configuration.
 void take_front_end(ReplayOptions& options) {
   constexpr std::string_view kAssignment = "front_end=";
   std::erase_if(options.overrides, [&](const std::string& assignment) {
@@ -51,7 +51,8 @@ void take_front_end(ReplayOptions& options) {
   });
 }
 
-/// Recorded bearings are what the robot used; images are looked at when there are none, or when that is asked for.
+/// Whether the replay uses the images. It uses the recorded bearings, as the robot did, unless there are none or the
+/// options ask for the images.
 bool looks_at_images(const ReplayOptions& options, const Run& run, const Rig& rig) {
   const bool works_on_images = rig.front_end != FrontEnd::bearings;
   if (options.perceive && !works_on_images)
@@ -88,7 +89,7 @@ Configuration configuration_of(const ReplayOptions& options, const Run& run) {
   return configuration;
 }
 
-/// The one given, else the one the recorded estimator started from.
+/// The map of the options, else the map that the recorded estimator started from.
 std::optional<LoadedMap> map_of(const ReplayOptions& options, const Run& run) {
   if (!options.map.empty()) {
     FileResult<LoadedMap> read = read_map(options.map);
@@ -103,7 +104,7 @@ std::optional<LoadedMap> map_of(const ReplayOptions& options, const Run& run) {
   return recorded;
 }
 
-/// Runs the images through their front end, and draws some of them if that was asked for.
+/// Replays the images through their front end, and draws some of them if requested.
 ReplayResult replay_seen(const ReplaySetup& setup, std::unique_ptr<Estimator> estimator, const Progress& progress,
                          Ending ending, const ReplayWatch& watch) {
   const ReplayOptions& options = setup.options;
@@ -139,7 +140,7 @@ ReplaySetup replay_setup(ReplayOptions given, const std::optional<Rig>& rig) {
   setup.configuration = configuration_of(options, setup.run);
   setup.rig = rig_of(options, rig ? *rig : read_or_refuse(setup.run));
   setup.map = map_of(options, setup.run);
-  if (!options.map.empty()) setup.run.since_map.reset();  // it leads from another one
+  if (!options.map.empty()) setup.run.since_map.reset();  // odometry since the recording's map does not fit another map
   setup.configuration.map.asks_odometry = setup.run.since_map.has_value();
   if (!setup.map) {
     if (options.localise) refuse("--localise needs a map to find the robot in: --map FILE");
@@ -171,35 +172,39 @@ ReplayResult replay_with(const ReplaySetup& setup, std::unique_ptr<Estimator> es
 
 void add_run_options(CLI::App& command, ReplayOptions& options) {
   command.add_option("--config", options.config,
-                     "Configuration (TOML); without it that of the recording, or every default");
-  command.add_option("--set", options.overrides, "Override one key, e.g. ekf.gate_chi2=9; may be repeated")
+                     "Configuration (TOML); without it the recording's configuration, or else every default");
+  command.add_option("--set", options.overrides, "Override one key, e.g. ekf.thinning_s=1; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command
-      .add_option("--front-end", options.front_end,
-                  "Look at the run's frames with this front end, or use its bearings; without it as its rig says")
+      .add_option(
+          "--front-end", options.front_end,
+          "Front end for the run's images, or bearings to use its ready-made bearings; without it as the rig says")
       ->check(CLI::IsMember(front_end_names()));
-  command.add_flag("--perceive", options.perceive,
-                   "Look at the images recorded beside the bearings, in place of these. Raw images of every image give "
-                   "the recorded poses again, to the last bit; JPEG of a camera that sends none loses a little");
-  command.add_flag("--no-names", options.no_names,
-                   "Do not look at the names that bearings carry: landmarks are all alike, as with identities = false "
-                   "in the rig");
-  command.add_option("--seed", options.seed, "For estimators that draw random numbers; else fastslam.seed")
+  command.add_flag(
+      "--perceive", options.perceive,
+      "Use the recorded images in place of the recorded bearings. If every image was recorded raw, the poses are the "
+      "recorded ones to the last bit; JPEG, from a camera that does not itself send JPEG, loses a little");
+  command.add_flag(
+      "--no-names", options.no_names,
+      "Ignore the names that bearings carry, so that all landmarks are alike, as with identities = false in the rig");
+  command.add_option("--seed", options.seed, "Seed of estimators that draw random numbers; without it fastslam.seed")
       ->check(CLI::Range(0, std::numeric_limits<int>::max()));
-  command.add_option("--prefix", options.log.channel_prefix, "Of the channels in the log");
+  command.add_option("--prefix", options.log.channel_prefix, "Prefix of the channels in the log");
   add_log_options(command, options.log);
   command.add_flag("--quiet", options.quiet, "Print nothing but errors");
 }
 
 void add_start_map_options(CLI::App& command, ReplayOptions& options, const std::string& map_option) {
   command.add_option(map_option, options.map, "Map file to start from, as the table [map] of the configuration says");
-  command.add_flag("--localise", options.localise, "Keep that map as it is, and only find the robot in it");
+  command.add_flag("--localise", options.localise,
+                   "Keep the map that the estimator starts from as it is, and only find the robot in it");
 }
 
 void add_truth_options(CLI::App& command, ReplayOptions& options) {
-  CLI::Option* const file = command.add_option("--truth", options.truth, "truth.csv to judge the poses by");
-  command.add_option("--truth-from", options.truth_folder, "Folder with a truth.csv and a landmarks.csv to judge by")
+  CLI::Option* const file = command.add_option("--truth", options.truth, "truth.csv with the true poses to judge by");
+  command
+      .add_option("--truth-from", options.truth_folder, "Folder with the truth.csv and the landmarks.csv to judge by")
       ->excludes(file);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What subcommands that replay a run share: from the command line to the outcome.
+// Replay of a run, from the command line to the result, shared by the subcommands.
 
 #include <cstddef>
 #include <filesystem>
@@ -17,29 +17,29 @@
 
 namespace azimuth {
 
-/// Which run, and how the estimator is set up. Empty: not given.
+/// The run to replay and the setup of the estimator. An empty member is not given.
 struct ReplayOptions {
   std::filesystem::path run, config, truth, truth_folder;
-  std::filesystem::path map;       ///< to start from; else that of the recording, if there is one
+  std::filesystem::path map;       ///< map to start from; empty: the map of the recording, if any
   std::filesystem::path pictures;  ///< folder to draw images into
   std::size_t every = 10;
   LogOptions log;
-  std::string front_end;  ///< else the rig's
+  std::string front_end;  ///< empty: the rig's front end
   std::vector<std::string> overrides;
   std::optional<int> seed;
-  bool perceive = false;  ///< look at the images although bearings were recorded
-  bool no_names = false;  ///< bearings carry none, whatever the rig says
+  bool perceive = false;  ///< use the images although bearings were recorded
+  bool no_names = false;  ///< ignore the names of bearings, whatever the rig says
   bool localise = false, quiet = false;
 };
 
-/// Adds --config, --set, --front-end and what else says what is replayed.
+/// Adds --config, --set, --front-end and the other options of a replay.
 void add_run_options(CLI::App& command, ReplayOptions& options);
 /// Adds `map_option`, for the map to start from, and --localise.
 void add_start_map_options(CLI::App& command, ReplayOptions& options, const std::string& map_option);
 /// Adds --truth and --truth-from.
 void add_truth_options(CLI::App& command, ReplayOptions& options);
 
-/// All that a replay begins with.
+/// Everything that a replay needs.
 struct ReplaySetup {
   ReplayOptions options;
   Run run;
@@ -50,10 +50,12 @@ struct ReplaySetup {
   bool uses_recorded_configuration() const;
 };
 
-/// Refuses what does not go together. With a `rig`, that stands in the place of the run's own, which need not have one.
+/// Reads everything that a replay needs, and refuses options that contradict each other or the run. A given `rig`
+/// replaces the run's rig, which may then be missing.
 ReplaySetup replay_setup(ReplayOptions options, const std::optional<Rig>& rig = {});
 
-/// Shows its progress, and what was wrong with a map that was not used. The first: with the configured estimator.
+/// Replays the run with the configured or the given estimator. Shows the progress, and prints the errors of maps that
+/// could not be used.
 ReplayResult replay_with(const ReplaySetup& setup, const ReplayWatch& watch = {});
 ReplayResult replay_with(const ReplaySetup& setup, std::unique_ptr<Estimator> estimator, Ending ending,
                          const ReplayWatch& watch = {});

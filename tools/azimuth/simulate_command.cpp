@@ -1,4 +1,4 @@
-// azimuth simulate: a run in a simulated world.
+// azimuth simulate: makes a run in a simulated world.
 
 #include <fmt/format.h>
 #include <limits>
@@ -36,11 +36,11 @@ std::string known_worlds() {
   return names;
 }
 
-/// Bearings as they are, or images that a camera would have taken instead.
+/// Simulates the run with bearings, or with the images of a camera instead.
 Run run_through(const Scenario& scenario, const SimulateOptions& options) {
   if (options.images.camera.empty()) return first_seconds(simulated_run(scenario), options.most_s);
   if (is_log_name(options.out))
-    refuse(options.out.string() + ": images are written into a run folder; azimuth convert makes a log of it");
+    refuse(options.out.string() + ": images are written into a run folder; azimuth export makes a log of it");
   ProgressBar bar(true, "images");
   FileResult<Run> run = rendered_run(scenario, options.images, options.out, options.most_s, bar.listener());
   if (!run) refuse(run.error());
@@ -63,17 +63,18 @@ void simulate_run(const SimulateOptions& options) {
 
 void add_image_options(CLI::App& command, RenderSettings& images) {
   CLI::Option* const camera =
-      command.add_option("--camera", images.camera, "Images of this camera in place of bearings")
+      command.add_option("--camera", images.camera, "Camera whose images the run has in place of bearings")
           ->check(CLI::IsMember(std::vector<std::string>{kStandardCameras.begin(), kStandardCameras.end()}));
-  command.add_option("--size", images.size, "Of the images, times 1024x768")
+  command.add_option("--size", images.size, "Size of the images, as a multiple of 1024x768")
       ->check(CLI::Range(0.1, 2.0))
       ->needs(camera)
       ->capture_default_str();
   for (const auto& [name, angle_rad, what] :
-       {std::tuple{"--roll-rad", &images.roll_rad, "How the camera leans, its left side lifted; the rig says so"},
-        std::tuple{"--pitch-rad", &images.pitch_rad, "Likewise, what is ahead of it lowered"}})
+       {std::tuple{"--roll-rad", &images.roll_rad, "Roll of the camera, its left side lifted; the run's rig says so"},
+        std::tuple{"--pitch-rad", &images.pitch_rad,
+                   "Pitch of the camera, its front side lowered; the run's rig says so"}})
     command.add_option(name, *angle_rad, what)->check(CLI::Range(-0.5, 0.5))->needs(camera)->capture_default_str();
-  command.add_option("--quality", images.quality, "Of their JPEG")
+  command.add_option("--quality", images.quality, "JPEG quality of the images")
       ->check(CLI::Range(1, 100))
       ->needs(camera)
       ->capture_default_str();
@@ -82,21 +83,26 @@ void add_image_options(CLI::App& command, RenderSettings& images) {
 }  // namespace
 
 void add_simulate_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("simulate", "Make a run in a simulated world; same seed, same bytes");
+  CLI::App* command =
+      app.add_subcommand("simulate", "Make a run in a simulated world; the same seed gives the same bytes");
   const auto options = std::make_shared<SimulateOptions>();
-  command->add_option("OUT", options->out, "LCM log if it ends in .lcmlog, .lcm or .log, else a run folder")
+  command
+      ->add_option("OUT", options->out,
+                   "Run to write: an LCM log if the name ends in .lcmlog, .lcm or .log, else a run folder")
       ->required();
-  command->add_option("--world", options->world, "Which world")
+  command->add_option("--world", options->world, "World to simulate")
       ->type_name(choices_text({kScenarioNames.begin(), kScenarioNames.end()}))
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "Of landmarks and noise")->capture_default_str();
-  command->add_option("--laps", options->laps, "Times round; 0: as the world has it")->check(CLI::Range(0, 1000));
-  command->add_flag("--no-identities", options->no_identities, "Bearings do not say which landmark they are of");
-  command->add_option("--clutter", options->clutter_per_set, "Mean number of false bearings a set")
+  command->add_option("--seed", options->seed, "Seed of landmarks and noise")->capture_default_str();
+  command->add_option("--laps", options->laps, "Number of laps; 0: as many as the world says")
+      ->check(CLI::Range(0, 1000));
+  command->add_flag("--no-identities", options->no_identities,
+                    "Make bearings without the identities of their landmarks");
+  command->add_option("--clutter", options->clutter_per_set, "Mean number of false bearings per set")
       ->check(CLI::Range(0.0, 100.0));
-  command->add_option("--seconds", options->most_s, "Stop after so long")->check(CLI::Range(1.0, 1e6));
+  command->add_option("--seconds", options->most_s, "Stop after this time, in seconds")->check(CLI::Range(1.0, 1e6));
   add_image_options(*command, options->images);
-  command->add_flag("--force", options->force, "Replace OUT");
+  command->add_flag("--force", options->force, "Replace OUT if it exists");
   command->callback([options] { simulate_run(*options); });
 }
 

@@ -40,7 +40,7 @@ bool is_rotation(const TumFields& fields) {
   return std::abs(std::sqrt(squared) - 1.0) < 0.01;
 }
 
-/// What is wrong with a line's numbers, or nothing.
+/// Returns what is wrong with the numbers of a line, or an empty text.
 std::string complaint(const TumFields& fields, const std::vector<StampedPose>& before) {
   if (std::abs(fields[0]) > kMaxSeconds) return "stamp out of range";
   if (!is_rotation(fields)) return "quaternion is not of length 1";

@@ -18,7 +18,7 @@ void fail_with(const fs::path& file, const std::error_code& error) {
   if (error) fail(FileErrors{system_error(file.string(), "cannot be written", error.value())});
 }
 
-/// Each file to its place below `into`.
+/// Moves each file below `from` to the same place below `into`.
 void move_files(const fs::path& from, const fs::path& into) {
   std::error_code error;
   for (fs::recursive_directory_iterator entry(from, error), end; !error && entry != end; entry.increment(error)) {
@@ -38,11 +38,11 @@ void move_files(const fs::path& from, const fs::path& into) {
 UnfinishedRun::UnfinishedRun(fs::path out) : out_(std::move(out)), files_(out_ / kFiles) {
   std::error_code ignored;
   was_there_ = fs::exists(out_, ignored);
-  if (!is_log_name(out_)) fs::remove_all(files_, ignored);  // of one that was killed
+  if (!is_log_name(out_)) fs::remove_all(files_, ignored);  // left by a killed program
 }
 
 UnfinishedRun::~UnfinishedRun() {
-  if (is_log_name(out_)) return;  // which write_run() sees to
+  if (is_log_name(out_)) return;  // write_run() removes an unfinished log
   std::error_code ignored;
   fs::remove_all(finished_ || was_there_ ? files_ : out_, ignored);
 }

@@ -5,22 +5,22 @@
 
 namespace azimuth {
 
-/// A run that is being made. What ends before it is finished leaves nothing of it behind, and what was there before as
-/// it was.
+/// A run that is being written. If the program ends before finish(), the destructor removes the new files and leaves
+/// earlier files as they were.
 ///
 /// Thread contract: thread-bound.
 class UnfinishedRun {
  public:
-  /// `out` as write_run() takes it.
+  /// `out` is the path for write_run().
   explicit UnfinishedRun(std::filesystem::path out);
   ~UnfinishedRun();
   UnfinishedRun(const UnfinishedRun&) = delete;
   UnfinishedRun& operator=(const UnfinishedRun&) = delete;
 
-  /// Where the files of images are put, as they are named in `out`, until the run is finished.
+  /// Temporary folder for the image files, with the names that they get in `out` when the run is finished.
   const std::filesystem::path& files() const { return files_; }
 
-  /// Takes the files into the run and writes it; fails as write_run() does.
+  /// Moves the files into the run and writes it. Fails as write_run() does.
   void finish(const Run& run, const WriteProgress& progress = {});
 
  private:

@@ -1,4 +1,4 @@
-// azimuth view: a window on the robot, or on a recording, in any browser.
+// azimuth view: shows the robot or a recording in any browser.
 
 #include <algorithm>
 #include <cerrno>
@@ -26,10 +26,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kLongestWait{500};
-/// A daemon that runs has said something by then.
+/// A running daemon sends a message within this time.
 constexpr std::chrono::seconds kNothingAfter{3};
 
-/// SIGTERM and SIGINT, to be polled for.
+/// Blocks SIGTERM and SIGINT and returns a descriptor to poll for them.
 UniqueFd stop_signals() {
   sigset_t signals;
   sigemptyset(&signals);
@@ -48,16 +48,16 @@ std::unique_ptr<HttpServer> opened(const ViewOptions& options, HttpHandler& hand
 void say_address(const ViewOptions& options, const WindowSettings& window, const HttpServer& server,
                  const std::string& what) {
   fmt::print("{} is shown at {} (Ctrl-C ends that)\n", visible(what), address_of(options, window, server.port()));
-  std::fflush(stdout);  // it may be a pipe that somebody waits at
+  std::fflush(stdout);  // standard output may be a pipe whose reader waits
 }
 
-/// Not longer than until `due`; 0: it is due.
+/// Timeout for poll() [ms]: at most until `due`; 0 if it is due.
 int wait_ms(Clock::duration due) {
   const auto wait = std::clamp<Clock::duration>(due, Clock::duration::zero(), kLongestWait);
   return static_cast<int>(std::chrono::ceil<std::chrono::milliseconds>(wait).count());
 }
 
-/// What a running daemon says, and who looks at it.
+/// Receives a running daemon's messages and serves them to browsers.
 class LiveLoop {
  public:
   LiveLoop(const ViewOptions& options, WindowSettings window)
@@ -70,7 +70,7 @@ class LiveLoop {
 
   const HttpServer& server() const { return *server_; }
 
-  /// Until a signal comes.
+  /// Runs until a signal comes.
   void run(int signals) {
     for (;;) {
       pollfd ready[] = {{signals, POLLIN, 0}, {receiver_.descriptor(), POLLIN, 0}, {server_->descriptor(), POLLIN, 0}};
@@ -84,7 +84,7 @@ class LiveLoop {
     }
   }
 
-  /// What was not shown, for a person.
+  /// Counts the messages that were shown and that were not, in a sentence for a person.
   std::string summary() const {
     std::string text = fmt::format("{} messages were shown", intake_.counts().messages);
     for (const auto& [channel, count] : intake_.counts().malformed)
@@ -108,7 +108,7 @@ class LiveLoop {
     print_error("azimuth view: " + (told_trouble_.empty() ? "LCM can be heard again" : told_trouble_));
   }
 
-  /// Once: who has started nothing else is told what else there has to be.
+  /// Prints once, if no message comes, what must run to send messages.
   void tell_of_nothing() {
     const bool told_why = !told_trouble_.empty();
     if (told_of_nothing_ || told_why || intake_.counts().messages > 0 || Clock::now() - began_ < kNothingAfter) return;
@@ -143,7 +143,7 @@ void show_live(const ViewOptions& options) {
 void show_recorded(const ViewOptions& options) {
   const WindowSettings settings = window_settings(options);
   RecordedWindow window(settings, recorded_page(options), Clock::now());
-  const UniqueFd signals = stop_signals();  // not before: a long replay is to be stopped
+  const UniqueFd signals = stop_signals();  // only now, so that Ctrl-C stops a long replay
   const std::unique_ptr<HttpServer> server = opened(options, window);
   say_address(options, settings, *server, options.recordings.size() == 1 ? "the recording" : "both recordings");
   for (;;) {
@@ -157,12 +157,12 @@ void show_recorded(const ViewOptions& options) {
 }  // namespace
 
 void add_view_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("view", "Show the robot, or a recording, to any browser");
+  CLI::App* command = app.add_subcommand("view", "Show the robot or a recording in any browser");
   const auto options = std::make_shared<ViewOptions>();
   add_view_options(*command, *options);
   command->footer(
-      "Nothing is ever sent to the robot. Exit codes: 0 stopped by a signal, 1 the address cannot be listened on, 2 "
-      "wrong use or input.");
+      "The command never sends anything to the robot. Exit codes: 0 stopped by a signal, 1 the address cannot be "
+      "listened on, 2 wrong use or input.");
   command->callback([command, options] {
     check(*command, *options);
     options->is_live() ? show_live(*options) : show_recorded(*options);

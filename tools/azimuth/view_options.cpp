@@ -32,7 +32,7 @@ std::string token_in(const std::filesystem::path& file) {
   return token;
 }
 
-/// What is of no use to the one kind of window, or to the other.
+/// Refuses options that do not apply to the kind of window, live or recorded.
 void refuse_options_without_effect(const CLI::App& command, bool is_live) {
   constexpr std::array<std::string_view, 5> kOfBoth{"--help", "--port", "--listen", "--token-file", "--prefix"};
   constexpr std::array<std::string_view, 2> kOfLive{"--lcm-url", "--lookers"};
@@ -50,24 +50,23 @@ void refuse_options_without_effect(const CLI::App& command, bool is_live) {
 
 void add_view_options(CLI::App& command, ViewOptions& options) {
   command.add_option("RUN", options.recordings,
-                     "Run folder, LCM log, a daemon's session folder or map file (.azmap) to show; two are shown over "
+                     "Run folder, LCM log, session folder of a daemon or map file (.azmap) to show; two are shown over "
                      "each other; none: the running daemon");
-  command.add_option("--lcm-url", options.lcm_url, "Where azimuthd sends to (its daemon.lcm.url)")
+  command.add_option("--lcm-url", options.lcm_url, "LCM address to which azimuthd sends (its daemon.lcm.url)")
       ->capture_default_str();
-  command.add_option("--port", options.port, "To listen on; 0: any that is free, which is printed")
+  command.add_option("--port", options.port, "Port to listen on; 0: any free port, which is printed")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
   command.add_option("--listen", options.listen,
-                     "This machine's address to listen on, in numbers, for other machines to look; they need the token "
-                     "that is printed. Without it this machine alone can look");
-  command.add_option(
-      "--token-file", options.token_file,
-      "File with the token that who looks must have, readable for its owner alone; without it one is made "
-      "up where --listen needs one");
-  command.add_option("--lookers", options.lookers, "Pages that may look at a running daemon at once")
+                     "Address of this machine to listen on, in numbers, so that other machines can open the page with "
+                     "the token that is printed. Without it only this machine can open the page");
+  command.add_option("--token-file", options.token_file,
+                     "File with the token that a viewer needs, readable for its owner alone; without it a token is "
+                     "made up where --listen needs one");
+  command.add_option("--lookers", options.lookers, "Most pages that show a running daemon at once")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
-  command.add_option("--pictures", options.page.pictures, "Images of each recording at most; 0: none")
+  command.add_option("--pictures", options.page.pictures, "Most images of each recording; 0: none")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
   add_run_options(command, options.replay);
@@ -100,7 +99,7 @@ WindowSettings window_settings(const ViewOptions& options) {
     settings.token = token_in(options.token_file);
   else if (is_for_others(options))
     settings.token = random_token();
-  // Cookies do not know ports: two windows on one machine must not take each other's.
+  // Cookies are shared by all ports of a machine, so each window has a cookie name of its own.
   settings.cookie = fmt::format("azimuth_view_{}", options.port);
   return settings;
 }

@@ -15,14 +15,14 @@ namespace azimuth {
 
 inline constexpr int kViewPort = 8017;
 
-/// Of azimuth view, as the command line gives them.
+/// The options of azimuth view.
 struct ViewOptions {
-  std::vector<std::filesystem::path> recordings;  ///< none: a running daemon is watched
-  ReplayOptions replay;                           ///< of each of them; its prefix is the daemon's, too
+  std::vector<std::filesystem::path> recordings;  ///< empty: show the running daemon
+  ReplayOptions replay;                           ///< options of each recording; its prefix also applies to the daemon
   HtmlWishes page{.file = {}, .for_window = true};
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
-  std::string listen;                ///< empty: this machine alone
-  std::filesystem::path token_file;  ///< empty: one is made where one is needed
+  std::string listen;                ///< empty: only this machine can open the page
+  std::filesystem::path token_file;  ///< empty: a token is made where one is needed
   int port = kViewPort;
   std::size_t lookers = 32;
 
@@ -31,15 +31,15 @@ struct ViewOptions {
 
 void add_view_options(CLI::App& command, ViewOptions& options);
 
-/// Refuses what does not go together.
+/// Refuses options that contradict each other.
 void check(const CLI::App& command, const ViewOptions& options);
 
 HttpSettings http_settings(const ViewOptions& options);
 
-/// With a token wherever another machine could look. Refuses a file that is none.
+/// The settings of the window, with a token if other machines can open the page. Refuses an invalid token file.
 WindowSettings window_settings(const ViewOptions& options);
 
-/// To open in a browser.
+/// The address to open in a browser.
 std::string address_of(const ViewOptions& options, const WindowSettings& window, std::uint16_t port);
 
 }  // namespace azimuth

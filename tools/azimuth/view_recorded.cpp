@@ -25,7 +25,7 @@ Json map_page(const std::filesystem::path& file) {
   return page_of_map(loaded->map, file.filename().string());
 }
 
-/// One that ends lost is worth a look all the more.
+/// The page of a run. A run that ends lost is shown, too.
 Json run_page(const ViewOptions& options, const std::filesystem::path& file) {
   ReplayOptions given = options.replay;
   given.run = file;
@@ -33,7 +33,7 @@ Json run_page(const ViewOptions& options, const std::filesystem::path& file) {
   HtmlOutput page(options.page, options.recordings.size());
   const ReplayResult result = replay_with(setup, page.watch(setup));
   const Report report = report_of(
-      setup, result, estimator_name(setup.rig, setup.configuration, setup.map ? &setup.map->map : nullptr), {});
+      setup, result, name(chosen_estimator(setup.rig, setup.configuration, setup.map ? &setup.map->map : nullptr)), {});
   page.add(setup, result, report);
   if (page.runs().empty())
     refuse(file.string() + ": no step was made" +

@@ -5,7 +5,8 @@
 
 namespace azimuth {
 
-/// What the page of the recordings shows, as JSON. Refuses what cannot be read, and a run of which nothing comes.
+/// Returns the data of the page of the recordings, as JSON. Refuses recordings that cannot be read, and runs without a
+/// step.
 std::string recorded_page(const ViewOptions& options);
 
 }  // namespace azimuth

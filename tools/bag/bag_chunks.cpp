@@ -11,17 +11,18 @@ namespace azimuth {
 namespace {
 
 constexpr std::size_t kPiece = std::size_t{1} << 18U;
-constexpr std::uint64_t kBeginning_B = std::uint64_t{1} << 14U;  // what getting ready for a chunk is worth
+constexpr std::uint64_t kBeginning_B = std::uint64_t{1} << 14U;  // cost of preparing to unpack a chunk
 
 enum class End { whole, cut, damaged };
 
-/// Where a chunk is unpacked to, piece by piece, as long as the budget lasts.
+/// Receives the unpacked pieces of a chunk as long as the budget lasts.
 class Unpacking {
  public:
   explicit Unpacking(UnpackBudget& budget) : budget_(budget) { budget_.spend(kBeginning_B); }
 
   char* room() { return reinterpret_cast<char*>(piece_->data()); }
-  /// Keeps `made` bytes of the room, for which `used` were read; false when that is more than a chunk may have.
+  /// Stores the first `made` bytes of room(), which result from `used` packed bytes. False if that exceeds the budget
+  /// or the largest size of a chunk.
   bool keep(std::size_t made, std::size_t used) {
     if (!budget_.spend(made + used) || made > kMaxChunkBytes - bytes_.size()) return false;
     bytes_.insert(bytes_.end(), piece_->begin(), piece_->begin() + static_cast<std::ptrdiff_t>(made));
@@ -41,7 +42,7 @@ End unpack_bz2(Bytes packed, Unpacking& out) {
   bz_stream stream{};
   if (BZ2_bzDecompressInit(&stream, 0, 0) != BZ_OK) return End::damaged;
   const std::unique_ptr<bz_stream, int (*)(bz_stream*)> end(&stream, BZ2_bzDecompressEnd);
-  stream.next_in = const_cast<char*>(reinterpret_cast<const char*>(packed.data()));  // which it does not change
+  stream.next_in = const_cast<char*>(reinterpret_cast<const char*>(packed.data()));  // bz2 does not write to it
   stream.avail_in = static_cast<unsigned>(std::min<std::size_t>(packed.size(), 0xffffffff));
   for (;;) {
     stream.next_out = out.room();

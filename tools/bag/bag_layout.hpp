@@ -1,9 +1,9 @@
 #pragma once
-// What reading and writing bags of ROS 1 have in common. Internal to tools/bag.
+// Common definitions for reading and writing ROS 1 bags. Internal to tools/bag.
 //
-// After the line kBagMagic a bag is a sequence of records: the length of the header in 32 bits, header, length of the
-// data, data. A header is a sequence of fields, each with its length before it: `name=value`. Chunks hold records of
-// their own.
+// After the line kBagMagic, a bag is a sequence of records. A record consists of the header's length (32 bits), the
+// header, the data's length (32 bits) and the data. A header is a sequence of fields `name=value`, each preceded by its
+// length. Chunks contain records.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace azimuth::bag {
 
-/// Of a file, after which it is told again how far reading it is.
+/// Number of bytes of a file between two calls of the progress callback.
 inline constexpr std::size_t kProgress_B = std::size_t{1} << 16U;
 
 /// The field `op` of each header.
@@ -22,21 +22,21 @@ namespace field {
 inline constexpr std::string_view kOp = "op";
 inline constexpr std::string_view kConnection = "conn";
 inline constexpr std::string_view kTime = "time";
-// Of a chunk.
+// Fields of a chunk.
 inline constexpr std::string_view kCompression = "compression";
 inline constexpr std::string_view kSize = "size";
-// Of a connection; but for the first they are in its data.
+// Fields of a connection. All except kTopic are in the data of the record.
 inline constexpr std::string_view kTopic = "topic";
 inline constexpr std::string_view kType = "type";
 inline constexpr std::string_view kChecksum = "md5sum";
 inline constexpr std::string_view kDefinition = "message_definition";
 inline constexpr std::string_view kSender = "callerid";
-// Of the bag.
+// Fields of the bag header record.
 inline constexpr std::string_view kEncryptor = "encryptor";
 inline constexpr std::string_view kIndexPosition = "index_pos";
 inline constexpr std::string_view kConnectionCount = "conn_count";
 inline constexpr std::string_view kChunkCount = "chunk_count";
-// Of indices and of what is said of chunks at the end.
+// Fields of index records and of chunk information records.
 inline constexpr std::string_view kVersion = "ver";
 inline constexpr std::string_view kCount = "count";
 inline constexpr std::string_view kChunkPosition = "chunk_pos";

@@ -8,19 +8,19 @@
 namespace azimuth {
 namespace {
 
-constexpr std::size_t kMaxHeader = 4096;  // of a record; those that ROS writes have some dozens of bytes
+constexpr std::size_t kMaxHeader = 4096;  // limit of a record header; ROS writes headers of some dozens of bytes
 
 using bag::Op;
 namespace field = bag::field;
 
 std::uint32_t u32_of(Bytes bytes) { return little_endian<std::uint32_t>(bytes); }
 
-/// `name=value` after `name=value`, each with its length before it.
+/// A sequence of fields `name=value`, each preceded by its length.
 class Fields {
  public:
   explicit Fields(Bytes bytes) : bytes_(bytes) {}
 
-  /// Whether there is nothing else in the bytes.
+  /// True if the bytes contain only valid fields.
   bool sound() const {
     return walk([](std::string_view, Bytes) { return false; });
   }
@@ -39,7 +39,7 @@ class Fields {
   }
 
  private:
-  /// Until `use(name, value)` says that it is enough; false when the bytes are no fields.
+  /// Iterates until `use(name, value)` returns true. False if the bytes are no valid fields.
   template <class Use>
   bool walk(Use use) const {
     for (Bytes rest = bytes_; !rest.empty();) {
@@ -61,15 +61,15 @@ class Fields {
 struct Record {
   Op op{};
   Fields fields{Bytes{}};
-  std::size_t header = 0;  ///< bytes up to the data
-  Bytes rest;              ///< of the file, from the data on
-  std::uint64_t size = 0;  ///< of the data, as the record says
+  std::size_t header = 0;  ///< number of bytes before the data
+  Bytes rest;              ///< the file from the data on
+  std::uint64_t size = 0;  ///< size of the data according to the record
 
   bool is_whole() const { return size <= rest.size(); }
   Bytes data() const { return rest.first(static_cast<std::size_t>(std::min<std::uint64_t>(size, rest.size()))); }
 };
 
-/// The record that `bytes` begin with, whether its data is whole or not; nothing when they begin with none.
+/// The record at the start of `bytes`, with complete or incomplete data; nothing if there is no record.
 std::optional<Record> record_at(Bytes bytes) {
   if (bytes.size() < 8) return std::nullopt;
   const std::size_t header = u32_of(bytes);
@@ -88,12 +88,13 @@ std::optional<Record> record_at(Bytes bytes) {
   return record;
 }
 
-/// Goes through records, and through those in chunks.
+/// Iterates over records, including those in chunks.
 class Walk {
  public:
   Walk(const BagVisitor& visitor, std::size_t file_B) : visitor_(visitor), budget_(file_B), file_B_(file_B) {}
 
-  /// Returns how many bytes are in no record. Past what makes no sense the next record is looked for.
+  /// Reads records and returns the number of bytes that belong to no record. After invalid bytes, searches for the next
+  /// record.
   std::uint64_t records(Bytes bytes, bool in_chunk) {
     std::uint64_t damaged = 0;
     while (!bytes.empty() && !budget_.is_overdrawn()) {
@@ -110,7 +111,7 @@ class Walk {
     return damaged;
   }
 
-  /// But for bytes.
+  /// The damage except BagDamage::bytes.
   BagDamage damage() const {
     BagDamage damage = damage_;
     damage.beyond_budget = budget_.is_overdrawn();
@@ -118,13 +119,13 @@ class Walk {
   }
 
  private:
-  /// Pieces of what was packed look like records: of a bag whose chunks are compressed, only the next chunk is looked
-  /// for.
+  /// True if the record may be real. After damage in a bag with compressed chunks, only chunks are accepted, since
+  /// compressed data may look like other records.
   bool may_be(const Record& record, bool in_chunk) const {
     return in_chunk || !lost_ || !packed_ || record.op == Op::chunk;
   }
 
-  /// Returns how many bytes it took; 0: the record is not whole, or makes no sense where it is.
+  /// Reads a record and returns the number of consumed bytes; 0 if the record is incomplete or misplaced.
   std::size_t take(const Record& record, bool in_chunk) {
     if (record.op == Op::chunk) return in_chunk ? 0 : take_chunk(record);
     if (!in_chunk) left_in_chunk_ = false;
@@ -138,14 +139,14 @@ class Walk {
     return record.header + static_cast<std::size_t>(record.size);
   }
 
-  /// What is not compressed is gone through where it lies, as if there were no chunk: then it does not matter whether
-  /// its length was ever written, or the file goes on as far. Of a compressed one, all that can be unpacked.
+  /// Reads a chunk. Only the header of an uncompressed chunk is consumed and its records are read in place, so that its
+  /// length may be missing and the chunk may be truncated. A compressed chunk is unpacked as far as possible.
   std::size_t take_chunk(const Record& record) {
     const std::string compression = record.fields.text(field::kCompression);
     left_in_chunk_ = false;
     packed_ = compression != "none";
     if (!packed_) return record.header;
-    const bool has_length = record.is_whole() && record.size > 0;  // 0: it was never closed
+    const bool has_length = record.is_whole() && record.size > 0;  // 0: the chunk was never closed
     bool unpacked = false;
     const std::vector<std::byte> bytes =
         unpack_chunk(compression, has_length ? record.data() : record.rest, budget_, unpacked);
@@ -169,11 +170,11 @@ class Walk {
 
   const BagVisitor& visitor_;
   UnpackBudget budget_;
-  std::size_t file_B_, told_B_ = file_B_;  // of which as much is left
+  std::size_t file_B_, told_B_ = file_B_;  // told_B_: bytes left at the last progress call
   BagDamage damage_;
   bool packed_ = false;         // the last chunk is compressed
-  bool left_in_chunk_ = false;  // and it is not known where it ends
-  bool lost_ = false;           // not at the end of a record
+  bool left_in_chunk_ = false;  // the end of the last chunk is unknown
+  bool lost_ = false;           // the position is not at the end of a record
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 #pragma once
-// The formats of bags, on bytes: that of ROS 1 (2.0), and MCAP, which ROS 2 records. Libraries that read them need an
-// index at the end, which a recording that was cut short has not, and trust every length; here any bytes are safe, and
-// what is whole is found wherever it lies. Those in SQLite are read by SQLite.
+// Readers of bag formats: ROS 1 (2.0), MCAP, and SQLite databases of ROS 2. Other libraries need an index at the end,
+// which truncated recordings lack, and trust all lengths. These readers accept any bytes and find all complete records.
+// Databases are read with the SQLite library.
 
 #include <cstdint>
 #include <filesystem>
@@ -20,7 +20,7 @@
 
 namespace azimuth {
 
-/// A text that is there once, however many have it: one schema of MCAP is that of any number of channels.
+/// A text with shared ownership, since many MCAP channels may use the same schema.
 class SharedText {
  public:
   SharedText() : SharedText(std::string{}) {}
@@ -35,35 +35,35 @@ class SharedText {
   std::shared_ptr<const std::string> text_;
 };
 
-/// What a publisher said of its messages.
+/// Properties of the messages of a publisher.
 struct BagConnection {
   std::uint32_t id = 0;
   std::string topic;
-  std::string type;       ///< sensor_msgs/Image, in ROS 2 as well; what is not ROS has its encoding in brackets
-  SharedText definition;  ///< what it is made of, for RosDefinition
-  std::string checksum;   ///< of the definition
+  std::string type;       ///< for example sensor_msgs/Image, also in ROS 2; other types have the encoding in brackets
+  SharedText definition;  ///< message definition, for RosDefinition
+  std::string checksum;   ///< checksum of the definition
   RosVersion version = RosVersion::one;
-  std::string sender = {};  ///< the node that sent them, where the bag says so
+  std::string sender = {};  ///< the sending node, if the bag names it
 };
 
-/// Told from time to time how far the reading of a file is; what it throws ends that.
+/// Called repeatedly with the progress of reading a file. It may throw to end the reading.
 using BagProgress = std::function<void(std::size_t done_B, std::size_t all_B)>;
 
-/// Told of what a bag holds, in the order in which it lies there; views are valid until the call returns.
+/// Callbacks for the content of a bag, in file order. Views are valid until the callback returns.
 struct BagVisitor {
-  std::function<void(const BagConnection&)> connection;  ///< perhaps more than once
+  std::function<void(const BagConnection&)> connection;  ///< may be called repeatedly for one id
   std::function<void(std::uint32_t connection, Stamp recorded, Bytes message)> message;
   BagProgress progress = {};  ///< may be empty
 };
 
-/// What was wrong with a bag.
+/// Damage of a bag.
 struct BagDamage {
-  std::uint64_t bytes = 0;   ///< of the file, in no whole record
-  std::uint64_t chunks = 0;  ///< compressed parts that could be unpacked only to some place, or not at all
-  bool encrypted = false;    ///< nothing in it can be read
-  bool beyond_budget =
-      false;  ///< unpacking and searching it is more than an UnpackBudget allows: it was not read to its end
-  std::string database = {};  ///< what SQLite says of one that is damaged
+  std::uint64_t bytes = 0;   ///< bytes of the file that belong to no complete record
+  std::uint64_t chunks = 0;  ///< compressed chunks that could be unpacked only partly or not at all
+  bool encrypted = false;    ///< the bag is encrypted and unreadable
+  /// Unpacking and searching exceeded the UnpackBudget, so the bag was not read to its end.
+  bool beyond_budget = false;
+  std::string database = {};  ///< error message of SQLite for a damaged database
 };
 
 inline constexpr std::string_view kBagMagic = "#ROSBAG V2.0\n";
@@ -71,20 +71,21 @@ inline constexpr std::string_view kMcapMagic = "\x89MCAP0\r\n";
 inline constexpr std::string_view kDatabaseMagic = "SQLite format 3";
 inline constexpr std::string_view kZstdMagic = "\x28\xB5\x2F\xFD";
 
-/// Walks all of a bag; of one that is cut, damaged or was never closed, all that is whole. Reentrant.
+/// Reads a ROS 1 bag. If it is truncated, damaged or unclosed, reads all complete records. Reentrant.
 BagDamage visit_bag(Bytes file, const BagVisitor& visitor);
-/// The same of MCAP.
+/// As visit_bag(), for MCAP.
 BagDamage visit_mcap(Bytes file, const BagVisitor& visitor);
 
-/// The same of a database of ROS 2 (.db3), which is not copied into memory. A file that is none has only damage.
+/// As visit_bag(), for a ROS 2 database (.db3). The file is not copied into memory. For a file that is no database,
+/// only damage is reported.
 BagDamage visit_database(const std::filesystem::path& file, const BagVisitor& visitor);
 
-/// Unpacks a chunk, bz2, lz4 or zstd; `whole` says whether it was all there. Of one that is cut, what is before that;
-/// of one that is damaged, or overdraws the budget, nothing. At most kMaxChunkBytes.
+/// Unpacks a bz2, lz4 or zstd chunk of at most kMaxChunkBytes. `whole` is set to whether the chunk was complete. A
+/// truncated chunk gives the part before its end. A damaged chunk, or one that exceeds the budget, gives nothing.
 std::vector<std::byte> unpack_chunk(std::string_view compression, Bytes packed, UnpackBudget& budget, bool& whole);
 inline constexpr std::size_t kMaxChunkBytes = std::size_t{1} << 29U;
 
-/// Seconds and nanoseconds as ROS counts them, to the nearest microsecond.
+/// Converts a ROS time, rounded to microseconds.
 Stamp ros_stamp(std::uint32_t seconds, std::uint32_t nanoseconds);
 
 }  // namespace azimuth

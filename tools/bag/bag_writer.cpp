@@ -12,11 +12,11 @@ namespace {
 using bag::Op;
 namespace field = bag::field;
 
-/// Of the record at the beginning with what follows its lengths: it is filled up, so that it can be rewritten.
+/// Padded size of the bag header record, header and data, so that it can be rewritten in place.
 constexpr std::size_t kHeadBytes = 4096;
 constexpr std::uint32_t kIndexVersion = 1;
 
-/// A header, or the data of a connection.
+/// Builds a header or the data of a connection record.
 class FieldsOut {
  public:
   FieldsOut() = default;
@@ -67,7 +67,7 @@ void BagWriter::message(std::uint32_t connection, BagTime time, std::string_view
   if (chunk_.size() >= kChunkBytes) close_chunk();
 }
 
-/// The chunk, then an index of each of its connections.
+/// Writes the chunk, then an index record for each of its connections.
 void BagWriter::close_chunk() {
   if (entries_.empty()) return;
   Chunk chunk{.position = file_.size(),
@@ -113,7 +113,7 @@ std::string BagWriter::finish() {
                      counts.bytes()));
   }
   std::string whole = file_.take();
-  write_head(index_position);  // now that it is known
+  write_head(index_position);  // rewrites the bag header with the known position
   std::ranges::copy(file_.take(), whole.begin() + static_cast<std::ptrdiff_t>(kBagMagic.size()));
   return whole;
 }

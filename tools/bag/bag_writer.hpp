@@ -1,5 +1,5 @@
 #pragma once
-// Bags of ROS 1 (format 2.0), as bytes: what bag_records.hpp reads, with the index that ROS's own readers need.
+// Writes ROS 1 bags (format 2.0) to memory, with the index that the readers of ROS need.
 
 #include <cstdint>
 #include <map>
@@ -12,41 +12,41 @@
 
 namespace azimuth {
 
-/// As ROS 1 counts: since the epoch, until 2106.
+/// Time of ROS 1: since the epoch, until the year 2106.
 struct BagTime {
   std::uint32_t seconds = 0;
-  std::uint32_t nanoseconds = 0;  ///< below a second
+  std::uint32_t nanoseconds = 0;  ///< fraction of a second
   friend bool operator<(const BagTime& a, const BagTime& b) {
     return a.seconds != b.seconds ? a.seconds < b.seconds : a.nanoseconds < b.nanoseconds;
   }
 };
 
-/// Makes one bag, in chunks that are not compressed. All of it is in memory, and the same calls give the same bytes.
+/// Makes one bag with uncompressed chunks. The whole bag is in memory. The same calls give the same bytes.
 ///
 /// Thread contract: thread-bound.
 class BagWriter {
  public:
   BagWriter();
 
-  /// Returns its number for message(); `connection.id` is not looked at.
+  /// Adds a connection and returns its number for message(). `connection.id` is ignored.
   std::uint32_t connect(BagConnection connection);
-  /// In any order of time, but readers go faster through messages that are in theirs.
+  /// Adds a message. Messages may have any order of time, but readers are faster if they are sorted.
   void message(std::uint32_t connection, BagTime time, std::string_view bytes);
-  /// The whole bag. To be called once, at the end.
+  /// Returns the whole bag. Must be called once, at the end.
   std::string finish();
 
-  /// A chunk is closed by the message that makes it so large.
+  /// A chunk is closed after the message with which it reaches this size.
   static constexpr std::size_t kChunkBytes = std::size_t{1} << 20U;
 
  private:
   struct Entry {
     BagTime time;
-    std::uint32_t offset = 0;  // of the record among those of its chunk
+    std::uint32_t offset = 0;  // position of the record in its chunk
   };
   struct Chunk {
-    std::uint64_t position = 0;  // in the file
+    std::uint64_t position = 0;  // position in the file
     BagTime first, last;
-    std::map<std::uint32_t, std::uint32_t> messages;  // of each connection
+    std::map<std::uint32_t, std::uint32_t> messages;  // number of messages by connection
   };
 
   void close_chunk();
@@ -54,9 +54,9 @@ class BagWriter {
   std::string connection_record(const BagConnection& connection) const;
 
   LittleBytes file_, chunk_;
-  std::map<std::uint32_t, std::vector<Entry>> entries_;  // of the chunk, by connection
+  std::map<std::uint32_t, std::vector<Entry>> entries_;  // messages of the present chunk, by connection
   std::vector<BagConnection> connections_;
-  std::vector<bool> introduced_;  // it stands in some chunk
+  std::vector<bool> introduced_;  // by connection: a chunk already contains its record
   std::vector<Chunk> chunks_;
 };
 

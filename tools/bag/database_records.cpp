@@ -1,4 +1,4 @@
-// Bags of ROS 2 in SQLite: the tables topics and messages and, since Iron, message_definitions.
+// Reads ROS 2 bags in SQLite. The tables are topics, messages and, since ROS 2 Iron, message_definitions.
 
 #include <algorithm>
 #include <map>
@@ -15,10 +15,10 @@ namespace {
 using Database = std::unique_ptr<sqlite3, int (*)(sqlite3*)>;
 using Statement = std::unique_ptr<sqlite3_stmt, int (*)(sqlite3_stmt*)>;
 
-constexpr int kStepsPerLook = 10'000;         // of SQLite's machine, of which a message takes some ten
-constexpr std::uint64_t kSteps = 10'000'000;  // that any file may take, and more the larger it is
+constexpr int kStepsPerLook = 10'000;         // SQLite instructions between two checks; a message takes about ten
+constexpr std::uint64_t kSteps = 10'000'000;  // instructions allowed for any file, in addition to those by its size
 
-/// How much work a file may make: one that was made to be gone through without end has an end.
+/// Limits the work for a file, since a crafted database may keep SQLite busy for ever.
 struct Work {
   std::uint64_t left = 0;
 
@@ -29,7 +29,7 @@ struct Work {
   }
 };
 
-/// A name of a file as a part of a URI.
+/// Escapes a file name for a URI.
 std::string escaped(const std::string& file) {
   constexpr std::string_view kDigits = "0123456789ABCDEF";
   std::string out;
@@ -54,14 +54,14 @@ Database open_database(const std::string& uri) {
   return database;
 }
 
-/// Reads one database. Nothing in it is run: views, triggers and what its schema may call stay away.
+/// Reads one database. No code of the database runs: views, triggers and functions in its schema are not used.
 class DatabaseWalk {
  public:
   DatabaseWalk(const std::filesystem::path& file, std::uint64_t file_bytes, const BagVisitor& visitor)
       : visitor_(visitor), work_(file_bytes), file_bytes_(file_bytes) {
     const std::string uri = "file:" + escaped(std::filesystem::absolute(file).string());
     database_ = open_database(uri);
-    // A recording that was never closed has a log beside it, which cannot be read where nothing may be written.
+    // An unclosed recording has a write-ahead log, which cannot be read in a folder without write permission.
     if (!database_ || !is_readable()) database_ = open_database(uri + "?immutable=1");
     if (database_) secure();
   }
@@ -89,7 +89,7 @@ class DatabaseWalk {
     sqlite3_limit(database, SQLITE_LIMIT_LENGTH, static_cast<int>(std::min<std::uint64_t>(longest(), kMaxChunkBytes)));
     sqlite3_progress_handler(database, kStepsPerLook, Work::look, &work_);
   }
-  /// No value that lies in the file is longer than that.
+  /// Upper limit of the length of a value stored in the file.
   std::uint64_t longest() const { return file_bytes_ + 4096; }
 
   Statement prepare(const char* sql) const {
@@ -109,7 +109,7 @@ class DatabaseWalk {
 
   bool is_readable() const { return step(prepare("SELECT count(*) FROM sqlite_master")) == SQLITE_ROW; }
 
-  /// One that lies in the file: not a view, and none that a module makes up.
+  /// True for a table stored in the file; false for views and virtual tables.
   bool is_table(const char* name) const {
     const Statement found = prepare("SELECT 1 FROM sqlite_master WHERE type = 'table' AND rootpage > 0 AND name = ?");
     if (!found) return false;
@@ -136,7 +136,7 @@ class DatabaseWalk {
     }
   }
 
-  /// Rows that lie in the file once come to no more bytes than it has.
+  /// Reads the messages. The total size of genuine rows cannot exceed the size of the file.
   int read_messages() {
     const Statement rows = prepare("SELECT topic_id, timestamp, data FROM messages");
     int result = SQLITE_DONE;

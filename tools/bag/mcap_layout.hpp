@@ -1,8 +1,8 @@
 #pragma once
-// What reading and writing MCAP (https://mcap.dev/spec) have in common. Internal to tools/bag.
+// Common definitions for reading and writing MCAP (https://mcap.dev/spec). Internal to tools/bag.
 //
-// After kMcapMagic a file is a sequence of records, and kMcapMagic again: the operation, the length of the content in
-// 64 bits, the content. Chunks hold records of their own.
+// A file consists of kMcapMagic, a sequence of records, and kMcapMagic again. A record consists of the operation, the
+// length of the content (64 bits) and the content. Chunks contain records.
 
 #include <cstdint>
 

@@ -1,4 +1,4 @@
-// MCAP: records of an operation, a length and that many bytes; most of them packed in chunks.
+// Reads MCAP. A record consists of an operation, a length and the content. Most records are in chunks.
 
 #include <algorithm>
 #include <map>
@@ -12,10 +12,10 @@
 namespace azimuth {
 namespace {
 
-constexpr std::size_t kRecordHead = 9;      // operation and length
-constexpr std::size_t kLongestName = 1024;  // of a schema, which each of its channels copies
+constexpr std::size_t kRecordHead = 9;      // size of operation and length
+constexpr std::size_t kLongestName = 1024;  // limit of a schema name, which each channel copies
 
-/// Takes numbers and texts off the front of bytes; once these are not enough, everything taken is empty.
+/// Reads numbers and texts from the front of a byte sequence. After the sequence is exhausted, all values are empty.
 class Content {
  public:
   explicit Content(Bytes bytes) : rest_(bytes) {}
@@ -43,14 +43,15 @@ class Content {
 
 struct McapRecord {
   McapOp op{};
-  std::uint64_t size = 0;  ///< of the content, as the record says
-  Bytes rest;              ///< of the file, from the content on
+  std::uint64_t size = 0;  ///< size of the content according to the record
+  Bytes rest;              ///< the file from the content on
 
   bool is_whole() const { return size <= rest.size(); }
   Bytes content() const { return rest.first(static_cast<std::size_t>(std::min<std::uint64_t>(size, rest.size()))); }
 };
 
-// Views of the content: after damage every byte may be the first of one, and copies of all would take hours.
+// The record structures are views of the content. After damage, a record may begin at any byte, so that copies would
+// take hours.
 struct SchemaRecord {
   std::uint16_t id = 0;
   std::string_view name, encoding, definition;
@@ -67,7 +68,7 @@ struct Channel {
   std::string_view topic, encoding, sender = {};
 };
 
-/// What is said of a channel by its key: texts in pairs.
+/// The value of `key` in the metadata of a channel, which are pairs of texts.
 std::string_view said_of(Bytes pairs, std::string_view key) {
   for (Content said(pairs); said.is_sound() && !said.is_used_up();) {
     const std::string_view each = said.text(), value = said.text();
@@ -79,7 +80,7 @@ std::string_view said_of(Bytes pairs, std::string_view key) {
 std::optional<Channel> read_channel(Bytes content) {
   Content said(content);
   Channel channel{said.number<std::uint16_t>(), said.number<std::uint16_t>(), said.text(), said.text()};
-  channel.sender = said_of(said.take(said.number<std::uint32_t>()), "callerid");  // of bags of ROS 1 that became MCAP
+  channel.sender = said_of(said.take(said.number<std::uint32_t>()), "callerid");  // in converted ROS 1 bags
   return said.is_used_up() ? std::optional(channel) : std::nullopt;
 }
 
@@ -101,13 +102,13 @@ std::optional<Message> read_message(Bytes content) {
 
 struct Chunk {
   std::uint64_t unpacked_size = 0;
-  std::uint32_t checksum = 0;  ///< of what is unpacked; 0: none was made
+  std::uint32_t checksum = 0;  ///< checksum of the unpacked records; 0: none
   std::string_view compression;
-  std::size_t head = 0;  ///< bytes before the records
-  Bytes records;         ///< packed; of a chunk that is cut, what is there
+  std::size_t head = 0;  ///< number of bytes before the records
+  Bytes records;         ///< packed records; for a truncated chunk the available part
   bool is_whole = false;
 };
-/// Of a chunk whose length was never written, or that the file ends in: up to the end of the file.
+/// Reads the head of a chunk. A chunk without a length, or a truncated one, extends to the end of the file.
 std::optional<Chunk> read_chunk(const McapRecord& record) {
   const Bytes content = record.is_whole() ? record.content() : record.rest;
   Content said(content);
@@ -124,31 +125,32 @@ std::optional<Chunk> read_chunk(const McapRecord& record) {
   return chunk.is_whole || !record.is_whole() ? std::optional(std::move(chunk)) : std::nullopt;
 }
 
-/// What RosDefinition reads keeps its name; of all else nothing can be made.
+/// The ROS version of a channel; nothing for encodings that RosDefinition does not support.
 std::optional<RosVersion> version_of(std::string_view message_encoding, std::string_view schema_encoding) {
   if (message_encoding == "cdr" && schema_encoding == "ros2msg") return RosVersion::two;
   if (message_encoding == "ros1" && schema_encoding == "ros1msg") return RosVersion::one;
   return std::nullopt;
 }
 
-/// As long as any channel may need it.
+/// A schema, kept as long as a channel may refer to it.
 struct Schema {
   std::string name, encoding;
   SharedText definition;
   std::string checksum;
 };
 
-/// Of a definition, since MCAP has none; equal texts have the same.
+/// A checksum of a definition, since MCAP contains none. Equal texts have equal checksums.
 std::string checksum_of_text(std::string_view text) {
   return std::to_string(text.size()) + '-' + std::to_string(std::hash<std::string_view>{}(text));
 }
 
-/// Goes through records, and through those in chunks.
+/// Iterates over records, including those in chunks.
 class McapWalk {
  public:
   McapWalk(const BagVisitor& visitor, std::size_t file_B) : visitor_(visitor), budget_(file_B), file_B_(file_B) {}
 
-  /// Returns how many bytes are in no record. Past what makes no sense the next record is looked for.
+  /// Reads records and returns the number of bytes that belong to no record. After invalid bytes, searches for the next
+  /// record.
   std::uint64_t records(Bytes bytes, bool in_chunk) {
     std::uint64_t damaged = 0;
     bool is_lost = false;
@@ -185,14 +187,14 @@ class McapWalk {
     return record.op == McapOp{} ? std::nullopt : std::optional(record);
   }
 
-  /// Of a record that turned out to be none. Of a channel all that is said of it was read; of the others, what has a
-  /// fixed place.
+  /// Cost of testing a false record. For a channel, all of its metadata was read; for other records, only fields at
+  /// fixed positions.
   static std::uint64_t work_of_looking_at(const std::optional<McapRecord>& record) {
     const bool was_read = record && record->op == McapOp::channel && record->is_whole();
     return kLookingForARecord_B + (was_read ? record->size : 0);
   }
 
-  /// After damage: a record holds what its kind holds, and another one, or the end, follows.
+  /// Stricter test for a record after damage: its content is valid, and another record or the end follows.
   bool is_surely_one(const McapRecord& record) const {
     if (!holds_what_it_should(record)) return false;
     const Bytes after = record.rest.subspan(record.content().size());
@@ -217,7 +219,7 @@ class McapWalk {
     }
   }
 
-  /// Returns how many bytes it took; 0: the record is not whole, or does not hold what it should.
+  /// Reads a record and returns the number of consumed bytes; 0 if the record is incomplete or its content is invalid.
   std::size_t take(const McapRecord& record, bool in_chunk) {
     if (record.op == McapOp::chunk) return in_chunk ? 0 : take_chunk(record);
     if (!record.is_whole()) return 0;
@@ -263,8 +265,8 @@ class McapWalk {
 
   static Stamp stamp_of_ns(std::uint64_t ns) { return stamp_from_us(static_cast<std::int64_t>((ns + 500) / 1000)); }
 
-  /// What is not compressed is gone through where it lies, as if there were no chunk: then it does not matter whether
-  /// all of it is there. Of a compressed one, all that can be unpacked, unless its checksum is wrong.
+  /// Reads a chunk. Only the head of an uncompressed chunk is consumed and its records are read in place, so that the
+  /// chunk may be truncated. A compressed chunk is unpacked as far as possible, unless its checksum is wrong.
   std::size_t take_chunk(const McapRecord& record) {
     const std::optional<Chunk> chunk = read_chunk(record);
     if (!chunk) return 0;
@@ -289,10 +291,10 @@ class McapWalk {
 
   const BagVisitor& visitor_;
   UnpackBudget budget_;
-  std::size_t file_B_, told_B_ = file_B_;  // of which as much is left
+  std::size_t file_B_, told_B_ = file_B_;  // told_B_: bytes left at the last progress call
   BagDamage damage_;
   std::map<std::uint16_t, Schema> schemas_;
-  std::set<std::uint16_t> channels_;  // those that were named
+  std::set<std::uint16_t> channels_;  // channels already reported to the visitor
 };
 
 }  // namespace

@@ -21,7 +21,7 @@ void write(LittleBytes& out, McapOp op, std::string_view content) {
   out.put(static_cast<std::uint8_t>(op)).put(static_cast<std::uint64_t>(content.size())).raw(content);
 }
 
-/// Numbers by numbers: their size in bytes, then each pair.
+/// Serialises a map of numbers: its size in bytes, then each pair.
 std::string map_bytes(const std::map<std::uint16_t, std::uint64_t>& numbers) {
   LittleBytes pairs;
   for (const auto& [key, value] : numbers) pairs.put(key).put(value);
@@ -42,7 +42,7 @@ McapWriter::McapWriter(std::string_view profile, std::string_view library) {
 }
 
 std::uint16_t McapWriter::add_schema(std::string_view name, std::string_view encoding, std::string_view definition) {
-  const auto id = static_cast<std::uint16_t>(schemas_.size() + 1);  // 0 means that there is none
+  const auto id = static_cast<std::uint16_t>(schemas_.size() + 1);  // 0 means no schema
   schemas_.push_back(LittleBytes().put(id).text(name).text(encoding).text(definition).bytes());
   write(file_, McapOp::schema, schemas_.back());
   return id;
@@ -90,7 +90,7 @@ void McapWriter::close_chunk() {
   chunks_.push_back(std::move(chunk));
 }
 
-/// Of each channel, where its messages lie in the chunk.
+/// Writes for each channel the positions of its messages in the chunk.
 void McapWriter::write_index(Chunk& chunk) {
   const std::uint64_t begin = file_.size();
   for (const auto& [channel, entries] : entries_) {
@@ -111,8 +111,8 @@ std::string McapWriter::finish() {
   return file_.take();
 }
 
-/// Schemas, channels, statistics and the index of the chunks; where each of these groups lies; the end, whose checksum
-/// is of all this and of itself so far.
+/// Writes schemas, channels, statistics and the chunk index, then the positions of these groups, then the footer. The
+/// checksum in the footer covers the summary and the footer up to the checksum.
 void McapWriter::write_summary() {
   const std::uint64_t begin = file_.size();
   std::vector<Group> groups;

@@ -11,13 +11,14 @@
 namespace azimuth {
 namespace {
 
-constexpr int kMostLevels = 32;                 // of types within types
-constexpr std::size_t kMostValues = 1U << 20U;  // of a message, apart from numbers in an array
-// Values may take no byte at all, as those of types without fields; what takes as many is no message but an attack.
+constexpr int kMostLevels = 32;                 // limit of nested types
+constexpr std::size_t kMostValues = 1U << 20U;  // limit of values in a message; an array of numbers counts once
+// Limits of the number of values relative to the message size. Values of types without fields take no bytes, so a
+// crafted message could contain any number of them.
 constexpr std::size_t kFreeValues = 64, kBytesAValue = 2;
 constexpr std::size_t kLargestDefinition = std::size_t{1} << 19U;
-constexpr std::size_t kLongestWord = 256;   // of a type or a field; ROS's own end at some dozens of letters
-constexpr std::size_t kLongestPath = 1024;  // of a value
+constexpr std::size_t kLongestWord = 256;   // limit of a type or field name; ROS uses some dozens of characters
+constexpr std::size_t kLongestPath = 1024;  // limit of the path of a value
 
 struct ScalarName {
   std::string_view name;
@@ -48,8 +49,7 @@ std::string_view take_word(std::string_view& text) {
   return word;
 }
 
-/// Takes out what bounds a length, in ROS 2: string<=9, uint8[<=9]. How long a text or an array may be does not matter
-/// to who reads it.
+/// Removes length bounds of ROS 2 such as string<=9 and uint8[<=9], which do not matter for reading.
 void drop_bounds(std::string& type) {
   constexpr std::string_view kAtMost = "<=";
   std::string without;
@@ -61,7 +61,7 @@ void drop_bounds(std::string& type) {
   type = without.append(type, begin);
 }
 
-/// Takes the [] or [9] off a type's end; false when that is malformed.
+/// Removes [] or [9] from the end of a type; false if it is malformed.
 bool take_array(std::string_view& type, RosField& field) {
   if (!type.ends_with(']')) return true;
   const std::size_t bracket = type.find('[');
@@ -76,11 +76,11 @@ bool take_array(std::string_view& type, RosField& field) {
   return true;
 }
 
-/// "package/" of a type's name.
+/// The part "package/" of a type name.
 std::string_view package_of(std::string_view type) { return type.substr(0, type.find('/') + 1); }
 
-/// `TYPE NAME`, in ROS 2 perhaps with a value that it has when nobody says another; an empty name: a constant or
-/// nothing. False: neither.
+/// Parses a line `TYPE NAME`, in ROS 2 with an optional default value. The name is empty for a constant or an empty
+/// line. False if the line is invalid.
 bool read_field(std::string_view line, std::string_view within, RosVersion version, RosField& field) {
   std::string_view rest = line.substr(0, line.find('#'));
   const bool is_two = version == RosVersion::two;
@@ -88,7 +88,7 @@ bool read_field(std::string_view line, std::string_view within, RosVersion versi
   if (is_two) drop_bounds(written);
   std::string_view type = written;
   if (type.empty()) return true;
-  // A constant, whose text may hold a # and anything.
+  // A constant: its text may contain any character, including #.
   const std::string_view name = take_word(rest);
   const std::string_view after = take_word(rest);
   if (name.find('=') != std::string_view::npos || after.starts_with('=')) return true;
@@ -146,7 +146,7 @@ std::optional<RosDefinition> RosDefinition::parse(std::string_view text, std::st
   definition.type_ = without_msg(type);
   definition.version_ = version;
   std::string current = definition.type_;
-  bool is_new_type = false;  // the next line names it
+  bool is_new_type = false;  // the next line names a new type
   definition.types_[current];
   while (!text.empty()) {
     std::string_view line = take_line(text);
@@ -177,24 +177,24 @@ bool RosDefinition::is_complete() const {
   });
 }
 
-/// How far the reading of one message has come.
+/// State of reading one message.
 struct RosDefinition::Walk {
   Bytes rest;
   const Use& use;
   std::string path;
   RosVersion version = RosVersion::one;
-  std::size_t taken = 0;  // since where sizes are counted from
+  std::size_t taken = 0;  // bytes since the origin of the alignment
   int level = 0;
   std::size_t values_left = std::min(kMostValues, kFreeValues + rest.size() / kBytesAValue);
 
-  /// False: it has had as many as a message of its size may.
+  /// False if the message has more values than its size allows.
   bool begin_value() {
     if (path.size() > kLongestPath || values_left == 0) return false;
     --values_left;
     return true;
   }
 
-  /// What CDR begins with; false: another byte order than ours, or a layout of later versions.
+  /// Reads the CDR header. False if the byte order differs or if the layout is that of a later version.
   bool begin() {
     if (version == RosVersion::one) return true;
     const std::optional<Bytes> said = take(4);
@@ -205,7 +205,7 @@ struct RosDefinition::Walk {
     if (version == RosVersion::one || size == 0) return;
     take(std::min((size - taken % size) % size, rest.size()));
   }
-  /// Takes bytes off the front; nothing when there are not as many.
+  /// Removes bytes from the front; nothing if there are too few.
   std::optional<Bytes> take(std::uint64_t size) {
     if (size > rest.size()) return std::nullopt;
     const Bytes front = rest.first(static_cast<std::size_t>(size));

@@ -1,6 +1,5 @@
 #pragma once
-// What a ROS message is made of, by the definition that a bag carries with it, and its bytes taken apart by that. Any
-// text and any bytes are safe.
+// Parses ROS message definitions and decodes messages with them. Any text and any bytes are safe.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,38 +14,38 @@
 
 namespace azimuth {
 
-/// Of ROS: definitions are written a little differently, and messages laid out.
+/// Version of ROS. The versions differ in the syntax of definitions and in the layout of messages.
 enum class RosVersion : std::uint8_t {
-  one,  ///< values one after the other
-  two,  ///< CDR: four bytes that say so, then each value at a multiple of its size, text with a zero at its end
+  one,  ///< values without padding
+  two,  ///< CDR: a header of four bytes, then each value aligned to its size; text ends with a zero byte
 };
 
-/// The types that are not made of others.
+/// The primitive types.
 enum class RosScalar : std::uint8_t { boolean, i8, u8, i16, u16, i32, u32, i64, u64, f32, f64, time, duration, text };
 
-/// Bytes of one; 0: as many as it says itself.
+/// Size in bytes; 0 for a type whose size is stored with each value.
 std::size_t size_of(RosScalar scalar);
 
 struct RosField {
   std::string name;
-  std::string type;                          ///< of a message of its own; empty for a scalar
-  RosScalar scalar = RosScalar::u8;          ///< else
-  bool is_array = false;                     ///< of a length that the message says, unless `length` does
-  std::optional<std::uint32_t> length = {};  ///< of an array
+  std::string type;                          ///< name of the message type; empty for a scalar
+  RosScalar scalar = RosScalar::u8;          ///< type of a scalar
+  bool is_array = false;                     ///< array of fixed `length`, or of a length stored in the message
+  std::optional<std::uint32_t> length = {};  ///< length of a fixed array
 };
 
-/// A type and those it is made of.
+/// A message type and the types of its fields.
 ///
 /// Thread contract: reentrant.
 class RosDefinition {
  public:
-  /// Reads the text of a definition, as `gendeps --cat` writes it: the fields of `type`, a line of = before each
-  /// further type, `MSG: package/Name`, its fields. Nothing when a line is none of these, or a type is not there. In
-  /// ROS 2 package/msg/Name is package/Name as well, here and in `type`.
+  /// Parses the text of a definition in the format of `gendeps --cat`: the fields of `type`, then for each further type
+  /// a line of =, a line `MSG: package/Name`, and its fields. Nothing if a line is invalid or a type is missing. In
+  /// ROS 2, package/msg/Name equals package/Name, both in the text and in `type`.
   static std::optional<RosDefinition> parse(std::string_view text, std::string_view type,
                                             RosVersion version = RosVersion::one);
 
-  /// One or more scalars of a message, as they lie there: of text without its length.
+  /// One or more scalars of a message in their stored form; text is without its length.
   struct Value {
     RosScalar scalar = RosScalar::u8;
     std::size_t count = 1;
@@ -54,9 +53,9 @@ class RosDefinition {
   };
   using Use = std::function<void(std::string_view path, const Value& value)>;
 
-  /// Calls `use` for each value of a message, in their order: "pose.pose.position.x", "name[2]" of texts and messages
-  /// in arrays; arrays of numbers are one value. False when the bytes end early, or are CDR of another byte order;
-  /// those left over do no harm.
+  /// Calls `use` for each value of a message in order. A path is, for example, "pose.pose.position.x", or "name[2]" for
+  /// an array element that is a text or a message. An array of numbers is one value. False if the bytes end too early
+  /// or are CDR with another byte order. Additional bytes are ignored.
   bool read(Bytes message, const Use& use) const;
 
  private:
@@ -70,7 +69,7 @@ class RosDefinition {
   std::map<std::string, std::vector<RosField>, std::less<>> types_;
 };
 
-/// package/Name of package/msg/Name.
+/// Converts package/msg/Name to package/Name.
 std::string without_msg(std::string_view type);
 
 }  // namespace azimuth

@@ -1,28 +1,29 @@
 #pragma once
-// What unpacking and searching may cost, by what was given: a file of some hundred bytes can hold chunks that unpack to
-// gigabytes.
+// Limits the work of unpacking and searching a bag, since a file of some hundred bytes may contain chunks that unpack
+// to gigabytes.
 
 #include <algorithm>
 #include <cstdint>
 
 namespace azimuth {
 
-/// Whatever is given may unpack to this.
+/// Any file may unpack to this size.
 inline constexpr std::uint64_t kFreeUnpackingBytes = std::uint64_t{32} << 20U;
-/// And to so many times its size: odometry packs to a twentieth, a still image in a row of the same to less.
+/// In addition, a file may unpack to this multiple of its size. Odometry is compressed to a twentieth; repeated images
+/// are compressed more.
 inline constexpr std::uint64_t kUnpackingRatio = 64;
-/// What it is worth to ask whether a record begins at a byte that is in none: unpacking a byte takes less than that.
+/// Cost of testing whether a record begins at a byte outside any record, in units of unpacking one byte.
 inline constexpr std::uint64_t kLookingForARecord_B = 8;
 
-/// One file's, over all of its chunks. Work is counted in bytes, those read, those made and those searched for a record
-/// where none is, so that the same file ends the same way on any machine.
+/// The budget of one file for all its chunks. Work is counted in bytes (read, produced, and searched for a record), so
+/// that a file gives the same result on any machine.
 ///
 /// Thread contract: thread-bound.
 class UnpackBudget {
  public:
   explicit UnpackBudget(std::uint64_t given_B) : left_B_(kFreeUnpackingBytes + kUnpackingRatio * given_B) {}
 
-  /// False from the first time on that it does not suffice.
+  /// Consumes budget. False from the first call on for which the budget is insufficient.
   bool spend(std::uint64_t bytes) {
     is_overdrawn_ = is_overdrawn_ || bytes > left_B_;
     left_B_ -= std::min(bytes, left_B_);

@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::size_t kUnpackedPiece = std::size_t{1} << 18U;
 
-/// Unpacks all frames, which follow one another, at most `left` bytes; empty: it is done, else why not. `keep(bytes)`
-/// says what went wrong with them, or nothing.
+/// Unpacks all consecutive zstd frames, at most `left` bytes. `keep(bytes)` stores unpacked bytes and returns an error
+/// text or an empty text. Returns an error text, or an empty text.
 template <class Keep>
 std::string unpack(Bytes packed, std::uint64_t left, Keep keep) {
   const std::unique_ptr<ZSTD_DStream, std::size_t (*)(ZSTD_DStream*)> stream(ZSTD_createDStream(), ZSTD_freeDStream);

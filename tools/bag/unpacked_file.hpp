@@ -1,5 +1,5 @@
 #pragma once
-// Files that were compressed as a whole and messages that were one by one, as ROS 2 does with those of a bag.
+// Unpacks ROS 2 bag files that are compressed as a whole, and messages that are compressed individually.
 
 #include <cstdint>
 #include <filesystem>
@@ -12,11 +12,10 @@
 
 namespace azimuth {
 
-/// A temporary file, which goes with this. Thread contract: thread-bound.
+/// An unpacked temporary file, which the destructor deletes. Thread contract: thread-bound.
 class UnpackedFile {
  public:
-  /// What zstd packed. Refuses what is not whole, and what unpacks to more than most_unpacked(); `file` is what errors
-  /// name.
+  /// Unpacks zstd data. Fails if the data is incomplete or unpacks to more than most_unpacked(). Errors name `file`.
   static FileResult<UnpackedFile> make(const std::filesystem::path& file, Bytes packed);
   UnpackedFile(UnpackedFile&& other) noexcept : path_(std::exchange(other.path_, {})) {}
   UnpackedFile(const UnpackedFile&) = delete;
@@ -32,10 +31,10 @@ class UnpackedFile {
   std::filesystem::path path_;
 };
 
-/// What zstd packed in a message, at most `most` bytes; false: it is damaged, cut, or more. Reentrant.
+/// Unpacks a zstd message of at most `most` bytes. False if it is damaged, truncated or larger. Reentrant.
 bool unpack_message(Bytes packed, std::uint64_t most, std::vector<std::byte>& out);
 
-/// What so many bytes of a bag may come to, by what an UnpackBudget allows.
+/// Largest unpacked size that an UnpackBudget allows for `packed_B` bytes.
 constexpr std::uint64_t most_unpacked(std::uint64_t packed_B) {
   return kFreeUnpackingBytes + kUnpackingRatio * packed_B;
 }

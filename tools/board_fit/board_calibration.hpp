@@ -1,5 +1,5 @@
 #pragma once
-// A fisheye's lens from images of a chessboard.
+// Calibrates the lens of a fisheye camera from images of a chessboard.
 
 #include <optional>
 #include <string>
@@ -11,20 +11,21 @@ namespace azimuth {
 
 struct BoardCalibration {
   BoardSolution solution;
-  double rim_px = 0.0;          ///< of the image's circle, as far as is known
-  double reach_px = 0.0;        ///< from the centre, to the farthest corner that fits
-  double theta_seen_rad = 0.0;  ///< as far from the axis
-  double theta_max_rad = 0.0;   ///< the lens is given up to here: no farther, and as far as it grows
-  Rig rig;                      ///< as it was, with that lens
+  double rim_px = 0.0;          ///< radius of the image circle as far as known
+  double reach_px = 0.0;        ///< distance from the centre to the farthest corner that fits
+  double theta_seen_rad = 0.0;  ///< angle from the axis at reach_px
+  double theta_max_rad = 0.0;   ///< limit of the lens: near theta_seen_rad, where theta still grows with the radius
+  Rig rig;                      ///< the input rig with the calibrated lens
 };
 
-/// `rig` says what is known beforehand: size of the images, mask, direction of the azimuth, and perhaps a lens to begin
-/// with. Without, or with `field_of_view_rad` (full angle within the image's circle), equidistant ones are tried.
-/// Nothing, and in `problem` one sentence that says why, when the images cannot tell. Deterministic.
+/// `rig` contains the prior knowledge: size of the images, mask, azimuth direction, and optionally an initial lens. If
+/// there is none, or if `field_of_view_rad` is given (full angle within the image circle), the fit starts from
+/// equidistant lenses. If the images do not determine the lens, the result is empty and `problem` has one sentence with
+/// the reason. Deterministic.
 std::optional<BoardCalibration> calibrate_by_boards(const Chessboard& board, const SeenBoards& seen, const Rig& rig,
                                                     std::optional<double> field_of_view_rad, std::string& problem);
 
-/// The rig of a camera of which nothing is known but its images: it looks up, with the heading up in the image.
+/// The rig of a camera of which only the image format is known. It looks up; the heading points up in the image.
 Rig unknown_fisheye(const FrameFormat& format);
 
 }  // namespace azimuth

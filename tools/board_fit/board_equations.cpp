@@ -7,7 +7,7 @@ namespace azimuth {
 namespace {
 
 constexpr int kOfBoard = 6;
-constexpr double kHeld = 1e-6;  // standard deviation of the turn about the axis, which stays
+constexpr double kHeld = 1e-6;  // standard deviation of the rotation about the lens axis, which is fixed
 
 class BoardEquations {
  public:
@@ -27,8 +27,8 @@ class BoardEquations {
   }
 
  private:
-  /* Of a corner at b on a board turned by R and at t: p = R b + t, and for a small turn w in the camera's frame
-   * d p / d w = -[R b]x, d p / d t = 1.
+  /* A corner at b on a board with rotation R and translation t is at p = R b + t. For a small rotation w in the
+   * camera's frame, d p / d w = -[R b]x and d p / d t = 1.
    */
   void see(std::size_t sighting, std::size_t corner) {
     const Eigen::Isometry3d& pose = at_.T_camera_board[sighting];

@@ -11,10 +11,11 @@ namespace azimuth {
 namespace {
 
 constexpr double kLeastSigma_px = 0.01;
-constexpr double kFirstSigma_px = 3.0;  // while the lens is hardly known
-constexpr int kRounds = 4;              // of which each knows better how large the errors are
+constexpr double kFirstSigma_px = 3.0;  // initial corner noise, while the lens is inaccurate
+constexpr int kRounds = 4;              // each round estimates the corner noise again
 
-/// Of errors along one axis, by the median of distances: half of them are below 1.1774 standard deviations.
+/// Standard deviation along one axis from the median of the distances: half of all distances are below 1.1774 standard
+/// deviations.
 double robust_sigma_px(std::vector<double> error_px) {
   std::erase_if(error_px, [](double each) { return !std::isfinite(each); });
   if (error_px.empty()) return kFirstSigma_px;

@@ -1,5 +1,5 @@
 #pragma once
-// Lens and poses of a chessboard in one least-squares fit (SPEC VI.29).
+// Estimates the lens and the poses of a chessboard in one least-squares fit (mathematics VI.29).
 
 #include <Eigen/Geometry>
 #include <cstddef>
@@ -14,34 +14,35 @@ namespace azimuth {
 /// All corners of the board in one image.
 struct BoardSighting {
   std::size_t image = 0;
-  std::vector<Pixel> corners;  ///< as Chessboard::corner counts them
+  std::vector<Pixel> corners;  ///< in the order of Chessboard::corner()
 };
 
 struct BoardSolution {
   Lens lens;
-  std::vector<Eigen::Isometry3d> T_camera_board;  ///< of each sighting; the camera's z along its axis
+  std::vector<Eigen::Isometry3d> T_camera_board;  ///< for each BoardSighting; the camera's z is along the lens axis
 
-  // Filled by fit_boards(); corners follow each other board by board.
-  LensCovariance covariance = LensCovariance::Zero();  ///< 0 for the turn about the axis, which no board tells
-  double sigma_px = 1.0;                               ///< of a corner along u and along v, as the residuals have it
-  std::vector<double> error_px;                        ///< of each corner; NaN: the lens has no image of it
-  std::vector<bool> fits;                              ///< whether it counts in full, more or less
+  // Filled by fit_boards(). Corners are ordered board by board.
+  LensCovariance covariance = LensCovariance::Zero();  ///< 0 for the unobservable rotation about the axis
+  double sigma_px = 1.0;                               ///< estimated noise of a corner along u and along v
+  std::vector<double> error_px;                        ///< residual of each corner; NaN if it has no image
+  std::vector<bool> fits;                              ///< for each corner: robust weight at least one half
 
-  double rms_px() const;   ///< of what fits, as distances in the image
-  double fitting() const;  ///< share of the corners
+  double rms_px() const;   ///< root mean square of the residuals that fit
+  double fitting() const;  ///< share of the corners that fit
 };
 
-/// The pose at which a lens sees a board nearly so, by a homography from the board to rays. Nothing: there is none.
+/// Approximate pose of a board from its corners, by a homography from the board to viewing rays. Nothing if there is
+/// none.
 std::optional<Eigen::Isometry3d> board_pose(const Lens& lens, const Chessboard& board,
                                             const std::vector<Pixel>& corners);
 
-/// A lens to begin with: that of `starts` whose boards are nearest to where they were seen, each at its board_pose().
-/// Nothing: none of them sees all boards.
+/// The initial solution: the lens among `starts` with the smallest residuals when each board is at its board_pose().
+/// Nothing if no lens sees all boards.
 std::optional<BoardSolution> board_start(const std::vector<Lens>& starts, const Chessboard& board,
                                          const std::vector<BoardSighting>& sightings);
 
-/// Fits from `start`, with Cauchy's kernel on corners, whose errors are as large as they turn out to be. The turn about
-/// the axis stays as it was. Nothing: what is there does not determine the unknowns. Deterministic.
+/// Fits from `start` with the Cauchy kernel on corners. The noise of the corners is estimated as well. The rotation
+/// about the lens axis is fixed. Nothing if the corners do not determine the unknowns. Deterministic.
 std::optional<BoardSolution> fit_boards(const Chessboard& board, const std::vector<BoardSighting>& sightings,
                                         const BoardSolution& start);
 

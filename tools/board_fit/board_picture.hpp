@@ -4,7 +4,7 @@
 
 namespace azimuth {
 
-/// residual_picture() of the corners of all boards, on one of the images.
+/// residual_picture() of the corners of all boards, drawn on one of the images.
 PlotCanvas board_picture(const ImageView& image, const Chessboard& board, const std::vector<BoardSighting>& sightings,
                          const BoardSolution& solution);
 

@@ -9,7 +9,8 @@
 namespace azimuth {
 namespace {
 
-/// With H = (h1, h2, h3) up to scale: (R1, R2, t) = H / |h|, R the rotation nearest to (h1, h2, h1 x h2).
+/// Pose from a homography H = (h1, h2, h3) up to scale: (R1, R2, t) = H / |h|, where R is the rotation nearest to
+/// (h1, h2, h1 x h2).
 std::optional<Eigen::Isometry3d> pose_of(const Eigen::Matrix3d& H) {
   const double scale = 0.5 * (H.col(0).norm() + H.col(1).norm());
   Eigen::Matrix3d axes;
@@ -24,8 +25,8 @@ std::optional<Eigen::Isometry3d> pose_of(const Eigen::Matrix3d& H) {
 
 }  // namespace
 
-/* A ray l along which (x, y) on the board is seen is parallel to H (x, y, 1): l x H (x, y, 1) = 0, which is linear in
- * H, and of two signs the one that has the board before the lens along its rays.
+/* The viewing ray l of a board point (x, y) is parallel to H (x, y, 1): l x H (x, y, 1) = 0, which is linear in H. Of
+ * the two possible signs of H, the one with the board in front of the lens is right.
  */
 std::optional<Eigen::Isometry3d> board_pose(const Lens& lens, const Chessboard& board,
                                             const std::vector<Pixel>& corners) {

@@ -9,7 +9,7 @@
 namespace azimuth {
 namespace {
 
-/// OpenCV takes no pointer to what it may not write, though it does not write.
+/// The const_cast is necessary because cv::Mat takes no const pointer; OpenCV does not write to this matrix.
 cv::Mat matrix_of(const ImageView& image) {
   assert(image.format.pixels == PixelFormat::gray8);
   auto* const first = const_cast<std::byte*>(image.bytes.data());
@@ -23,7 +23,7 @@ std::vector<Pixel> pixels_of(const std::vector<cv::Point2f>& corners) {
   return pixels;
 }
 
-/// Between corners that are side by side.
+/// Least distance between neighbouring corners of a row.
 double least_spacing_px(const std::vector<cv::Point2f>& corners, int columns) {
   double least_px = 1e9;
   for (std::size_t i = 1; i < corners.size(); ++i)
@@ -33,7 +33,7 @@ double least_spacing_px(const std::vector<cv::Point2f>& corners, int columns) {
   return least_px;
 }
 
-/// To where all edges nearby meet, in windows that hold no other corner and little of what the lens bends.
+/// Refines corners to subpixel accuracy. The windows are small enough to contain no other corner and little distortion.
 void refine(const cv::Mat& image, int columns, std::vector<cv::Point2f>& corners) {
   const int half_px = std::clamp(static_cast<int>(0.3 * least_spacing_px(corners, columns)), 2, 5);
   const cv::TermCriteria until(cv::TermCriteria::EPS | cv::TermCriteria::COUNT, 60, 1e-3);
@@ -42,8 +42,8 @@ void refine(const cv::Mat& image, int columns, std::vector<cv::Point2f>& corners
 
 }  // namespace
 
-/// What follows squares from one to the next finds boards that a lens bends much; what looks for corners alone finds a
-/// few more, in bad light above all.
+/// Tries two detectors of OpenCV in turn. The one that follows squares copes with strong distortion; the one that
+/// searches for corners finds a few more boards, mainly in poor light.
 std::optional<std::vector<Pixel>> find_chessboard(const ImageView& image, const Chessboard& board) {
   const cv::Mat matrix = matrix_of(image);
   const cv::Size size(board.columns, board.rows);

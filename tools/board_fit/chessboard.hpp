@@ -9,13 +9,13 @@
 
 namespace azimuth {
 
-/// Inner corners of a chessboard, where four squares meet: one less each way than there are squares.
+/// The inner corners of a chessboard, where four squares meet. Each direction has one corner fewer than squares.
 struct Chessboard {
   int columns = 0, rows = 0;
   double square_m = 1.0;  ///< side of a square
 
   std::size_t corners() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
-  /// Row by row, in the board's own frame, in which its middle is the origin and z = 0 [m].
+  /// Corner position [m] in the board's frame: origin at the board's middle, z = 0. Corners are counted row by row.
   Eigen::Vector3d corner(std::size_t index) const {
     const int column = static_cast<int>(index) % columns, row = static_cast<int>(index) / columns;
     return square_m * Eigen::Vector3d(column - 0.5 * (columns - 1), row - 0.5 * (rows - 1), 0.0);
@@ -23,11 +23,11 @@ struct Chessboard {
   friend bool operator==(const Chessboard&, const Chessboard&) = default;
 };
 
-/// All its corners, row by row, in an image of gray8; nothing: it is not there, or not whole. From which of its ends a
-/// board is counted may differ from image to image.
+/// All corners of the board in a gray8 image, row by row. Nothing if the board is not completely visible. The corner
+/// from which the board is counted may differ between images.
 std::optional<std::vector<Pixel>> find_chessboard(const ImageView& image, const Chessboard& board);
 
-/// How many inner corners the board in the image has, whatever their number is; nothing: none is recognised.
+/// The size of any chessboard that the image shows; nothing if none is recognised.
 std::optional<Chessboard> any_chessboard(const ImageView& image);
 
 }  // namespace azimuth

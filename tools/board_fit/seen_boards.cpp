@@ -11,7 +11,7 @@ namespace {
 
 using Path = std::filesystem::path;
 
-constexpr std::size_t kLookedAtAgain = 6;  // images without the board, for one of another number of corners
+constexpr std::size_t kLookedAtAgain = 6;  // number of images without the board that are searched for any other board
 
 FileResult<ImageFile> grey_image(const Path& file) {
   const FileResult<ImageFile> image = read_image(file);
@@ -21,7 +21,7 @@ FileResult<ImageFile> grey_image(const Path& file) {
 
 std::string size_of(const FrameFormat& format) { return fmt::format("{} x {}", format.width_px, format.height_px); }
 
-/// The larger number first, since which of them are columns is no matter here.
+/// The board with the larger number as columns, since the orientation does not matter here.
 Chessboard lying(const Chessboard& board) {
   return {.columns = std::max(board.columns, board.rows), .rows = std::min(board.columns, board.rows)};
 }

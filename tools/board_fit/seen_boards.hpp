@@ -1,5 +1,5 @@
 #pragma once
-// A folder of images, looked through for a chessboard.
+// Searches a list of images for a chessboard.
 
 #include <filesystem>
 #include <string>
@@ -12,18 +12,18 @@
 namespace azimuth {
 
 struct SeenBoards {
-  FrameFormat format;                    ///< of all images, in grey
-  std::vector<BoardSighting> sightings;  ///< at most one an image
+  FrameFormat format;                    ///< format of all images after conversion to grey
+  std::vector<BoardSighting> sightings;  ///< at most one per image
   std::vector<std::filesystem::path> images;
-  std::vector<std::filesystem::path> without;  ///< those in which the board was not found whole
-  /// In some of them, a board of another number of corners was found; the one most often seen. 0 columns: none.
+  std::vector<std::filesystem::path> without;  ///< images in which the complete board was not found
+  /// The board with a different number of corners that most often appears in `without`. 0 columns if there is none.
   Chessboard other = {};
 };
 
-/// Refuses an image that cannot be read, and one of another size than those before it.
+/// Fails if an image cannot be read or if its size differs from that of the previous images.
 FileResult<SeenBoards> look_for_boards(const std::vector<std::filesystem::path>& images, const Chessboard& board);
 
-/// In gray8, without padding.
+/// Converts an image to gray8 without padding.
 ImageFile in_grey(const ImageFile& image);
 
 }  // namespace azimuth

@@ -14,7 +14,7 @@ CentreComparison compare_centre(const MirrorCircle& mirror, const ImageRig& rig)
   const Pixel in_rig{axes.centre_px.x(), axes.beta * axes.centre_px.y()};
   CentreComparison comparison;
   comparison.off_px = (mirror.rim.centre_px - in_rig).norm();
-  // A centre that is off by d turns the bearing of what lies across at radius r by asin(d / r).
+  // A centre error d turns the bearing of a pixel at radius r, perpendicular to the error, by asin(d / r).
   comparison.worst_azimuth_rad = std::asin(std::min(1.0, comparison.off_px / (0.5 * mirror.rim.radius_px)));
   comparison.agrees = comparison.off_px <= kCentreTolerance_px + 3.0 * mirror.sigma_centre_px;
   return comparison;

@@ -12,11 +12,12 @@
 namespace azimuth {
 namespace {
 
-constexpr int kFixAPose = 3;
-// Squared: a descriptor's distance to the nearest over that to the next one.
+constexpr int kFixAPose = 3;  // three bearings of known landmarks determine a pose in the plane
+// Ratio test: largest squared ratio of the nearest descriptor distance to the second nearest.
 constexpr double kMostAlike = 0.7 * 0.7;
 
-/// Landmarks of one colour are not told apart: of two numbers of them the smaller one may be the same.
+/// Number of coloured landmarks that both images may show. Landmarks of one colour cannot be told apart, so each colour
+/// counts with the smaller of its two numbers.
 int coloured_again(const BearingSet& earlier, const BearingSet& later) {
   std::map<Kind, int> left;
   for (const Bearing& bearing : earlier.bearings) ++left[bearing.kind];
@@ -30,7 +31,7 @@ std::int32_t squared_distance(const Descriptor& a, const Descriptor& b) {
   return dot_product(a, a) - 2 * dot_product(a, b) + dot_product(b, b);
 }
 
-/// The only one of `others` that looks like it.
+/// Index of the descriptor in `others` that matches `looks` and passes the ratio test; nothing if none does.
 std::optional<std::size_t> alike(const Descriptor& looks, const std::vector<Descriptor>& others) {
   std::int32_t least = std::numeric_limits<std::int32_t>::max(), next = least;
   std::size_t best = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Which front end a camera's images are for, by what each sees in them.
+// Chooses the perception front end for a camera by what each front end detects in its images.
 
 #include <array>
 #include <string>
@@ -13,35 +13,35 @@
 
 namespace azimuth {
 
-/// What was seen in pairs of images, each with the next one of the same drive: one number a pair.
+/// Detections in pairs of successive images of one drive. Each vector has one number per pair.
 struct FrontEndsSeenAgain {
-  std::vector<int> coloured;        ///< landmarks of a colour that the other image shows as well
-  std::vector<int> features;        ///< in the earlier image
-  std::vector<int> features_again;  ///< of them, those that look like one of the other image and like no second one
+  std::vector<int> coloured;        ///< coloured landmarks that both images show
+  std::vector<int> features;        ///< features in the earlier image
+  std::vector<int> features_again;  ///< features of the earlier image with one unambiguous match in the later one
 };
 
-/// Coloured landmarks fix a pose in the plane by three bearings, and each is one thing of known kind with two sides:
-/// where most images show as many, they are what to go by. Else features, of which there are always some.
+/// The colour front end if most pairs show at least three coloured landmarks twice: three bearings determine a pose in
+/// the plane, and a coloured landmark has a known kind. Otherwise SIFT, since images always have features.
 FrontEnd front_end_for(const FrontEndsSeenAgain& seen);
 
-/// Whether too little is seen again for that front end, by the median pair.
+/// True if SIFT is chosen and the median pair matches too few features to determine a pose.
 bool is_doubtful(const FrontEndsSeenAgain& seen);
 
-/// In one line: why it is that front end.
+/// One line that explains the choice to the user.
 std::string reason(const FrontEndsSeenAgain& seen);
 
-/// Looks at pairs of images through both front ends, with default settings. Thread contract: thread-bound.
+/// Runs both front ends, with default settings, on pairs of images. Thread contract: thread-bound.
 class FrontEndTrial {
  public:
   explicit FrontEndTrial(const CameraRig& rig);
 
-  /// Two images, the later one taken next after the earlier one. One of no use shows nothing.
+  /// Adds two successive images of a drive. An image that a front end cannot use counts as one without detections.
   void add(const ImageView& earlier, const ImageView& later);
   const FrontEndsSeenAgain& seen() const { return seen_; }
 
  private:
-  // As they are: an image that is the later one of a pair and the earlier one of the next is no camera that stands
-  // still.
+  // The front ends run without ImageWatch, which would report a frozen camera: one image may end a pair and begin the
+  // next one.
   ColourPerception colour_;
   SiftPerception sift_;
   std::array<BearingSet, 2> sets_;

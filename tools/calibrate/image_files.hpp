@@ -8,12 +8,13 @@
 
 namespace azimuth {
 
-/// The image files that arguments of the command line name: files as they are, of folders all images in them by name,
-/// of run folders those in `frames`. At most `most`, evenly spread.
+/// The image files that command-line arguments name. A file stands for itself, a folder for all its images sorted by
+/// name, a run folder for the images in its `frames` folder. If there are more than `most`, returns an evenly spaced
+/// selection of `most`.
 FileResult<std::vector<std::filesystem::path>> image_files(const std::vector<std::filesystem::path>& arguments,
                                                            std::size_t most);
 
-/// At most `most` of `files`, evenly spread, each with the one after it.
+/// Pairs of successive `files`. If there are more than `most` pairs, returns an evenly spaced selection of `most`.
 std::vector<std::pair<std::filesystem::path, std::filesystem::path>> image_pairs(
     const std::vector<std::filesystem::path>& files, std::size_t most);
 

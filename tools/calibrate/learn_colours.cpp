@@ -13,13 +13,13 @@ namespace {
 
 constexpr int kClickRadius_px = 3;
 constexpr std::size_t kFewestPixels = 10;
-constexpr double kOdd = 0.02;  // part of the pixels at either end that does not count
+constexpr double kOdd = 0.02;  // fraction of the pixels at either end that is discarded as outliers
 constexpr double kHueMargin_deg = 8.0;
 constexpr double kSaturationMargin = 0.15;
 constexpr double kLessLight = 0.5;
-constexpr double kLeastSaturation = 0.2, kLeastValue = 0.08;  // less is no colour, whatever was labelled
+constexpr double kLeastSaturation = 0.2, kLeastValue = 0.08;  // a pixel below either limit has no usable hue
 
-/// `count` whole numbers with commas between.
+/// Parses exactly `count` integers separated by commas.
 std::optional<std::vector<int>> numbers(std::string_view text, std::size_t count) {
   std::vector<int> values;
   const char *at = text.data(), *const end = text.data() + text.size();
@@ -41,14 +41,14 @@ std::optional<PixelRectangle> within(const PixelRectangle& rectangle, const Fram
   return inside ? std::optional(rectangle) : std::nullopt;
 }
 
-/// The value below which a part of all lie.
+/// The value below which the fraction `part` of all values lies.
 double quantile(std::vector<double> values, double part) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }
 
-/// Of angles, which have no smallest: the direction of their sum.
+/// Circular mean: the direction of the sum of the unit vectors of all hues.
 double mean_hue_deg(const std::vector<Hsv>& pixels) {
   double x = 0.0, y = 0.0;
   for (const Hsv& pixel : pixels) {

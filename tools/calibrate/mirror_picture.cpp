@@ -9,12 +9,12 @@
 namespace azimuth {
 namespace {
 
-// Told apart by every kind of colour vision, and by their dark edge from any image.
+// These colours stay distinct for every kind of colour vision. The dark edge separates them from any image.
 constexpr Colour kRim{0.902, 0.624, 0.0};
 constexpr Colour kDisc{0.337, 0.706, 0.914};
 constexpr Colour kEdge{0.0, 0.0, 0.0, 0.6};
 
-/// The middle of a pixel with whole numbers is half a pixel from the canvas's corner.
+/// Pixel coordinates are whole at pixel centres; canvas coordinates are whole at pixel corners.
 Eigen::Vector2d on_canvas(const Pixel& pixel) { return pixel + Pixel(0.5, 0.5); }
 
 class MirrorPicture {

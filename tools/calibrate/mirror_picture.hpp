@@ -5,7 +5,7 @@
 
 namespace azimuth {
 
-/// The image (gray8 or rgb8) with the circle that was found in it, its centre and the inner disc.
+/// The image (gray8 or rgb8), overlaid with the mirror's rim, its centre and the inner disc.
 PlotCanvas mirror_picture(const ImageView& image, const MirrorCircle& mirror);
 
 }  // namespace azimuth

@@ -9,10 +9,10 @@
 namespace azimuth {
 namespace {
 
-/// Hundredths of a pixel are more than the images say.
+/// Rounds to hundredths of a pixel, which is finer than the accuracy of the images.
 double rounded(double value_px) { return std::round(100.0 * value_px) / 100.0; }
 
-/// What is not known of it is not set.
+/// Parameters that the user did not give become kNotSet.
 ModelRig model_of(const MirrorModel& model) {
   const auto value = [](const std::optional<double>& given) { return given.value_or(kNotSet); };
   if (model.model == HyperbolicMirrorRig::kName)

@@ -6,27 +6,27 @@
 
 namespace azimuth {
 
-/// What images do not say about a camera with a mirror.
+/// Properties of a mirror camera that images do not show.
 struct MirrorModel {
   std::string model = "radial";  ///< "radial", "hyperbolic_mirror" or "parabolic_mirror"
   FrontEnd front_end = FrontEnd::sift;
   std::optional<double> mirror_a_mm, mirror_b_mm, focal_length_px, horizon_radius_px;
 };
 
-/// The rig of a robot whose camera's mirror was found in images of this size; everything else as by default, the
-/// heading up in the image.
+/// The rig of a robot whose mirror was found in images of the given format. All other values are defaults; the robot's
+/// heading points up in the image.
 Rig mirror_rig(const MirrorCircle& mirror, const FrameFormat& format, const MirrorModel& model);
 
-/// The rig.toml, with what remains to be checked by hand before it is used. `why_front_end`: that it is this one;
-/// empty: it was asked for.
+/// The text of rig.toml, with comments that list what the user has to check before use. `images`: number of images
+/// used. `why_front_end`: reason for the choice of front end; empty if the user chose it.
 std::string mirror_rig_text(const Rig& rig, int images, const std::string& why_front_end = {});
 
-/// Of a robot of which nothing is known: (1.8 degrees)^2 for each metre. A filter that trusts a heading which drifts
-/// takes its drift for an error of the image's centre, and loses both; one that trusts it too little only learns more
-/// slowly.
+/// Heading drift variance of an unknown robot: (1.8 degrees)^2 per metre. If the value is too small, the filter takes
+/// heading drift for an error of the image centre and estimates both wrongly. If it is too large, the filter only
+/// converges more slowly.
 inline constexpr double kUnknownDrift_rad2_per_m = 1e-3;
 
-/// The mask keeps this far from the rim and from the inner disc: their edges are as blurred.
+/// Distance of the mask from the rim and from the inner disc, whose edges are blurred by about this much.
 inline constexpr double kMaskMargin_px = 2.0;
 
 }  // namespace azimuth

@@ -20,12 +20,12 @@ char letter(std::byte byte) { return static_cast<char>(byte); }
 bool is_blank(std::byte byte) { return std::isspace(static_cast<unsigned char>(byte)) != 0; }
 bool is_digit(std::byte byte) { return letter(byte) >= '0' && letter(byte) <= '9'; }
 
-/// Reads the header of a PNM file: numbers between blanks and comments.
+/// Reads the header of a PNM file: numbers separated by white space and comments.
 class PnmHeader {
  public:
   explicit PnmHeader(Bytes bytes) : rest_(bytes) {}
 
-  /// Nothing when there is none or it is beyond any image.
+  /// The next number. Nothing if there is none or if it exceeds kMaxFrameSide_px.
   std::optional<int> number() {
     skip_blanks();
     if (rest_.empty() || !is_digit(rest_.front())) return std::nullopt;
@@ -36,7 +36,7 @@ class PnmHeader {
     }
     return value;
   }
-  /// What follows the one blank after the last number.
+  /// The bytes after the single white-space character that follows the last number.
   Bytes pixels() const { return rest_.empty() || !is_blank(rest_.front()) ? Bytes{} : rest_.subspan(1); }
 
  private:
@@ -65,7 +65,7 @@ FileResult<ImageFile> decode_pnm(Bytes bytes, PixelFormat pixels, const std::str
   return ImageFile{format, {whole.begin(), whole.end()}};
 }
 
-/// By JpegDecoder or PngDecoder.
+/// `Decoder` is JpegDecoder or PngDecoder.
 template <class Decoder>
 FileResult<ImageFile> decode_by(Decoder decoder, Bytes bytes, const std::string& file) {
   const auto header = decoder.read_header(bytes);

@@ -1,5 +1,5 @@
 #pragma once
-// Image files for calibration: JPEG, PNG, and the raw formats that every program writes.
+// Reads image files for calibration: JPEG, PNG, and binary PGM and PPM.
 
 #include <cstddef>
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace azimuth {
 
-/// An image that owns its memory, rows without padding.
+/// An image that owns its memory. Rows have no padding.
 struct ImageFile {
   FrameFormat format;  ///< gray8 or rgb8
   std::vector<std::byte> bytes;
@@ -20,11 +20,11 @@ struct ImageFile {
   ImageView view() const { return {format, bytes}; }
 };
 
-/// Whether a file's name is that of an image: .jpg, .jpeg, .png, .pgm, .ppm or .pnm, in any case.
+/// True if the file name ends in .jpg, .jpeg, .png, .pgm, .ppm or .pnm, in upper or lower case.
 bool is_image_name(const std::filesystem::path& file);
 
-/// The image in the bytes of a JPEG, PNG, PGM or PPM file (binary, 8 bits a sample), told apart by their first bytes;
-/// `file` is what errors name. Any bytes are safe.
+/// Decodes the bytes of a JPEG, PNG, binary PGM or binary PPM file with 8 bits per sample. The first bytes determine
+/// the format. Errors name `file`. Any input bytes are safe.
 FileResult<ImageFile> decode_image(std::span<const std::byte> bytes, const std::string& file);
 
 FileResult<ImageFile> read_image(const std::filesystem::path& file);

@@ -9,7 +9,7 @@
 namespace azimuth {
 namespace {
 
-// Steps that a number may take at a time.
+// Standard deviations that limit how far a free number may move in one step.
 constexpr FreeErrors kFreeHeading{.sigma_camera_yaw_rad = 0.3};
 constexpr FreeErrors kFreeTurn{.sigma_scale_turn = 0.1};
 constexpr FreeErrors kFreeDrift{.sigma_drift_rad_per_m = 0.05};
@@ -18,11 +18,12 @@ constexpr FreeErrors kFreeClock{.sigma_lag_s = 0.2, .sigma_lag_growth = 0.01};
 constexpr FreeErrors kFreeMount{.sigma_lag_s = 0.3, .sigma_lag_growth = 0.3};
 constexpr FreeErrors kFreeJump{.sigma_lag_s = 0.2, .sigma_lag_growth = 0.2};
 constexpr FreeErrors kFreeCentre{.sigma_centre_px = 10.0};
-// An instant among images is told no better than to half of what they are apart.
+// Smallest step of the search for the instant of a clock jump. The instant is observable only to half the interval
+// between images.
 constexpr Duration kFinestInstant = std::chrono::milliseconds(100);
-// A rough guess that is better by less is not worth following the drive anew from there.
+// A rough guess starts a new fit of the drive only if its cost is below this fraction of the present cost.
 constexpr double kWorthIt = 0.97;
-// Energy for each bearing: more than three standard deviations leave, all over the drive.
+// Energy per bearing above which the first fit stops. Residuals of three standard deviations on all bearings give less.
 constexpr double kNothingFits = 3.0;
 
 bool any_radius(const Drive& drive) {
@@ -32,7 +33,7 @@ bool any_radius(const Drive& drive) {
   return false;
 }
 
-/// Of a world in a mirror, whose turns are the other way round.
+/// The guess for a mirrored world, in which turns have the opposite sign.
 RigGuess in_a_mirror(RigGuess guess) {
   guess.mirrored = !guess.mirrored;
   return guess;
@@ -50,7 +51,8 @@ Explanations::Explanations(const Drive& drive, const Rig& said, const HindsightS
       least_energy_(now_.energy),
       has_radii_(any_radius(drive)) {}
 
-/// As long as there is hope: an energy larger by one for each bearing is refuted, whatever is left of the drive.
+/// Fits the drive from the start with `guess`. The fit stops early when the energy exceeds the least energy so far by
+/// one per bearing: the rest of the drive cannot make up for that.
 DriveSolution Explanations::begun_anew(const RigGuess& guess, const FreeErrors& free) const {
   const double hopeless = least_energy_ + static_cast<double>(now_.graph.bearings());
   return followed_and_solved(drive_, guess, free, settings_, hopeless);
@@ -60,7 +62,7 @@ DriveSolution Explanations::better(const DriveSolution& a, const DriveSolution& 
   return a.energy <= b.energy ? a : b;
 }
 
-/// From the drive as it is explained now, and from where a rough search leads.
+/// The better of two fits: one starts from the present solution, one from the result of a rough search.
 DriveSolution Explanations::with_free(const FreeErrors& free, const RoughSearch& search) {
   const DriveSolution from_here = solved(drive_, now_.graph, now_.guess, free, settings_);
   const RigGuess rough = rough_guesses(stretches_, now_.guess, search).front();
@@ -68,7 +70,8 @@ DriveSolution Explanations::with_free(const FreeErrors& free, const RoughSearch&
   return better(from_here, begun_anew(rough, free));
 }
 
-/// The other direction, with the offset that the rig has for images.
+/// The fit with azimuths that grow the other way. For image cameras the yaw changes so that the rig's azimuth offset
+/// keeps its value.
 DriveSolution Explanations::mirrored_camera() {
   RigGuess guess = in_a_mirror(now_.guess);
   if (sees_images(said_)) {
@@ -85,15 +88,16 @@ DriveSolution Explanations::swapped_wheels() {
   return begun_anew(guess, {});
 }
 
-/// Never far: from the drive as it is explained now.
+/// The fit with a free camera position. It starts from the present solution, since the position is never far off.
 DriveSolution Explanations::mounted_elsewhere() {
   RigGuess guess = now_.guess;
   guess.numbers = MotionNumbers::mount;
   return solved(drive_, now_.graph, guess, kFreeMount, settings_);
 }
 
-/// The instant is no number of the graph, and short stretches tell it to some seconds only, or wrongly where few
-/// landmarks are near: from where they have it, steps that get smaller lead to where the whole drive has it.
+/// Refines the instant of the jump. The graph does not estimate the instant, and short stretches give it only to some
+/// seconds, or wrongly if few landmarks are near. A search with decreasing steps therefore minimises the energy of the
+/// whole drive over the instant.
 DriveSolution Explanations::jumped_when_it_fits_best(DriveSolution jumped) const {
   if (jumped.energy >= now_.energy) return jumped;
   const Stamp first = drive_.sets.front().stamp, last = drive_.sets.back().stamp;
@@ -131,7 +135,7 @@ std::optional<Explanation> Explanations::tried(Mistake mistake) {
       return Explanation{mistake, 1, kFreeHeading, with_free(kFreeHeading, {.yaw = true})};
     case Mistake::turn: {
       const DriveSolution turned = with_free(kFreeTurn, {.turn = true});
-      // A scale below zero is a mirror in disguise.
+      // A negative scale is equivalent to a mirrored world.
       if (turned.guess.rig.odometry.scale_turn <= 0.0) return std::nullopt;
       return Explanation{mistake, 1, kFreeTurn, turned};
     }

@@ -1,5 +1,5 @@
 #pragma once
-// Internal to tools/check: a drive with one thing wrong.
+// Internal to tools/check: fits a drive under the hypothesis of one mistake.
 
 #include <optional>
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace azimuth {
 
-/// A drive as one mistake would explain it, put right.
+/// The fit of a drive with one mistake corrected.
 struct Explanation {
   Mistake mistake = Mistake::hand;
-  int adjusted = 0;  ///< numbers
-  FreeErrors free;   ///< that were looked for
+  int adjusted = 0;  ///< number of parameters that the fit adjusts for this mistake
+  FreeErrors free;   ///< the parameters that are free in the fit
   DriveSolution solution;
 };
 
@@ -23,11 +23,11 @@ class Explanations {
  public:
   Explanations(const Drive& drive, const Rig& said, const HindsightSettings& settings);
 
-  /// With what has been put right so far.
+  /// The fit with all mistakes corrected that were accepted so far.
   const DriveSolution& now() const { return now_; }
   void accept(const DriveSolution& solution);
 
-  /// Nothing: it cannot be looked for in this drive.
+  /// Fits the drive with `mistake` corrected. Nothing if this drive cannot be tested for the mistake.
   std::optional<Explanation> explanation(Mistake mistake);
 
  private:
@@ -45,7 +45,7 @@ class Explanations {
   const HindsightSettings& settings_;
   ShortStretches stretches_;
   DriveSolution now_;
-  double least_energy_ = 0.0;  // of all that was tried since something was accepted
+  double least_energy_ = 0.0;  // least energy of all fits since the last accepted one
   bool has_radii_ = false;
 };
 

@@ -10,7 +10,7 @@
 namespace azimuth {
 namespace {
 
-// Keys.
+// "key = value" texts for rig.toml.
 
 std::string hand_key(const Rig& said, const RigGuess& /*found*/) {
   return direction_text(rig_saying({.rig = said, .mirrored = true}, said));
@@ -55,7 +55,7 @@ std::string centre_key(const Rig& said, const RigGuess& found) {
   return fmt::format("camera.centre_px = [{:.1f}, {:.1f}]", centre[0] + off.x(), centre[1] + off.y());
 }
 
-// What is wrong.
+// Descriptions of each mistake.
 
 std::string hand_wrong(const Rig& /*said*/, const RigGuess& /*found*/) {
   return "azimuths grow the other way than the rig says";
@@ -108,13 +108,13 @@ std::string centre_wrong(const Rig& /*said*/, const RigGuess& found) {
   return fmt::format("the image's centre is {:.0f} px off", found.centre_px.norm());
 }
 
-// How far a number is off.
+// Differences between found values and present ones.
 
 double sigma_of(const DriveSolution& found, int which) {
   return std::sqrt(std::max(0.0, found.covariance(which, which)));
 }
 
-/// Along where it lies.
+/// Length of the offset, and its standard deviation along the offset's direction.
 Off off_in_plane(const Eigen::Vector2d& by, const Eigen::Matrix2d& P) {
   const double length = by.norm();
   const Eigen::Vector2d along = length > 0.0 ? Eigen::Vector2d(by / length) : Eigen::Vector2d::UnitX();

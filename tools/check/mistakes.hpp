@@ -1,5 +1,5 @@
 #pragma once
-// What may be wrong with a rig, or with the way in which a run was recorded: one row for each.
+// Mistakes that a rig or a recording may contain, with one table row for each.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,27 +10,27 @@
 
 namespace azimuth {
 
-/// Those that hide others stand first.
+/// Mistakes that hide others come first.
 enum class Mistake : std::uint8_t {
-  leaps,     ///< odometry goes a way that no wheel makes: counts that wrap, an odometer that begins anew
-  senders,   ///< odometry of two, mixed
-  hand,      ///< azimuths grow the other way
-  wheels,    ///< turns are reported the other way round
-  heading,   ///< the camera looks elsewhere
-  turn,      ///< scale of turns
-  drift,     ///< heading gained for each metre
-  lag,       ///< odometry is late, or the camera
-  clock,     ///< a lag that grows
-  jump,      ///< a lag that is another one from an instant on
-  mount,     ///< the camera stands elsewhere than over the axle
-  centre,    ///< of the image
-  tilt,      ///< the camera leans
-  creep,     ///< the odometer goes on while the robot stands
-  distance,  ///< scale of distances
+  leaps,     ///< odometry moves as no wheel can: wheel counts wrap or the odometer restarts
+  senders,   ///< the recording mixes odometry of two senders
+  hand,      ///< azimuths grow in the opposite direction
+  wheels,    ///< odometry reports turns with the wrong sign
+  heading,   ///< wrong yaw of the camera
+  turn,      ///< wrong scale of turns
+  drift,     ///< wrong heading drift per metre
+  lag,       ///< wrong time offset between odometry and camera
+  clock,     ///< the time offset grows
+  jump,      ///< the time offset changes at one instant
+  mount,     ///< wrong position of the camera on the robot
+  centre,    ///< wrong centre of the image
+  tilt,      ///< wrong roll or pitch of the camera
+  creep,     ///< odometry reports motion while the robot stands
+  distance,  ///< wrong scale of distances
 };
 inline constexpr std::size_t kMistakes = 15;
 
-/// How far a number is from what the rig says, in the mistake's own unit.
+/// Difference of a number from the rig's value and its standard deviation, both in the mistake's unit.
 struct Off {
   double by = 0.0, sigma = 0.0;
 };
@@ -38,26 +38,27 @@ struct Off {
 struct MistakeRow {
   Mistake mistake;
   std::string_view name;
-  /// More than this is gross, whatever it costs: own unit. A number that is known to no better than half of it cannot
-  /// be told to be right.
+  /// An offset larger than this is gross, independent of its cost in metres; in the mistake's unit. The check can
+  /// confirm a number only if its standard deviation is at most half of this.
   double gross;
-  /// For a person: so many of these are one of its own.
+  /// Conversion factor from the mistake's unit to `unit`, which texts for the user use.
   double per_unit;
   std::string_view unit;
-  /// Which motion or which file would tell.
+  /// Advice: which motion or which file makes the mistake observable.
   std::string_view tells;
-  /// "key = value" of what was found. None: of no rig.
+  /// "key = value" for rig.toml with the found value. Null if the table provides none.
   std::string (*key)(const Rig& said, const RigGuess& found);
-  /// What is wrong, without the key.
+  /// Description of the mistake, without the key. Null if the table provides none.
   std::string (*wrong)(const Rig& said, const RigGuess& found);
-  /// None: it has no number that a fit finds.
+  /// Offset of the found number from the present one. Null if the mistake has no number that a fit estimates.
   Off (*off)(const DriveSolution& found, const DriveSolution& now, double drive_s);
 };
 
 const MistakeRow& row_of(Mistake mistake);
 inline std::string_view to_string(Mistake mistake) { return row_of(mistake).name; }
 
-/// Either explains what the other one does, but for what is known of the world.
+/// True for the two mistakes that mirror the world. Each explains a drive as well as the other; only knowledge of the
+/// true path or map separates them.
 inline bool is_of_two_worlds(Mistake mistake) { return mistake == Mistake::hand || mistake == Mistake::wheels; }
 
 }  // namespace azimuth

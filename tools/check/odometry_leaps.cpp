@@ -11,14 +11,14 @@ namespace azimuth {
 namespace {
 
 constexpr std::size_t kLeastReadings = 20;
-constexpr double kMoves_m = 1e-3;   // in a step; less is standing
-constexpr double kPaceShare = 0.8;  // of all that moves
+constexpr double kMoves_m = 1e-3;   // a shorter step counts as standing
+constexpr double kPaceShare = 0.8;  // quantile of the speeds of all moving steps
 constexpr double kTimesPace = 5.0;
-constexpr double kLeast_m = 0.03;       // steps of encoders and of stamps that jitter are shorter
-constexpr double kGrip_m_s2 = 10.0;     // what tyres hold on to: nothing on wheels gets away faster
-constexpr double kGoneOn = 0.7;         // of a step: a neighbour differs by less when it goes on like it
-constexpr std::size_t kMostApart = 12;  // readings between which two senders take turns
-constexpr double kUndone = 0.4;         // of a leap: what is left of it after the opposite one
+constexpr double kLeast_m = 0.03;       // encoder steps and stamp jitter cause shorter steps
+constexpr double kGrip_m_s2 = 10.0;     // no wheeled robot accelerates faster: tyres slip
+constexpr double kGoneOn = 0.7;         // a neighbour that differs by less than this fraction of a step continues it
+constexpr std::size_t kMostApart = 12;  // most readings between alternations of two senders
+constexpr double kUndone = 0.4;         // a leap is undone if at most this fraction of it remains after a later leap
 constexpr double kAtOrigin_m = 0.05;
 constexpr std::size_t kLeastTurns = 5;
 constexpr double kMostlyUndone = 0.6;
@@ -35,7 +35,7 @@ double quantile(std::vector<double> values, double share) {
   return *at;
 }
 
-/// How fast the robot goes when it goes, from readings `apart` from each other.
+/// Typical speed of the moving robot, from pairs of readings that are `apart` indices apart.
 double pace_m_s(std::span<const OdometryReading> odometry, std::size_t apart) {
   std::vector<double> speeds;
   for (std::size_t i = apart; i < odometry.size(); ++i) {
@@ -46,7 +46,8 @@ double pace_m_s(std::span<const OdometryReading> odometry, std::size_t apart) {
   return quantile(std::move(speeds), kPaceShare);
 }
 
-/// Two senders that take turns look quick from one reading to the next, and are not from one's reading to its next.
+/// The least typical speed over all index distances. Readings of two alternating senders suggest a high speed between
+/// neighbours, but the true speed between readings of the same sender.
 double pace_m_s(std::span<const OdometryReading> odometry) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t apart = 1; apart <= kMostApart && apart < odometry.size(); ++apart)

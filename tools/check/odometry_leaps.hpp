@@ -1,5 +1,5 @@
 #pragma once
-// Internal to tools/check: ways that no wheel goes, in odometry as it came.
+// Internal to tools/check: finds motions in raw odometry that no wheel can make.
 
 #include <cstddef>
 #include <span>
@@ -8,21 +8,22 @@
 
 namespace azimuth {
 
-/// A leap is a step much larger than the robot's pace, farther than tyres could push it in that time, and that the
-/// steps before and after do not go on with.
+/// A leap is a step between two readings that is much longer than the robot's typical speed allows, exceeds the
+/// acceleration that tyres can transmit, and is not continued by the steps before and after.
 struct OdometryLeaps {
   std::size_t readings = 0;
   std::size_t leaps = 0;
-  std::size_t undone = 0;     ///< of these: the opposite one follows within some readings
-  std::size_t to_origin = 0;  ///< of these: to where the odometer began, or to zero
-  double typical_m = 0.0;     ///< median length
-  Stamp first{};              ///< after the first one
+  std::size_t undone = 0;     ///< leaps that an opposite leap cancels within some readings
+  std::size_t to_origin = 0;  ///< leaps that end at the odometer's first pose or at zero
+  double typical_m = 0.0;     ///< median length of a leap
+  Stamp first{};              ///< stamp of the reading that ends the first leap
 
   bool are_two_senders() const;
   bool is_any() const { return leaps > 0; }
 };
 
-/// Of readings of one origin; where the odometer says itself that it began anew there is no step.
+/// Finds leaps between readings of the same origin. A restart that the odometer reports itself (a new origin) is no
+/// step.
 OdometryLeaps odometry_leaps(std::span<const OdometryReading> odometry);
 
 }  // namespace azimuth

@@ -19,7 +19,7 @@ std::vector<double> driven_by(const std::vector<Pose2>& poses) {
   return driven;
 }
 
-/// With the camera's yaw, so that a motion is seen as the camera sees it.
+/// Camera poses with the camera's yaw included, so that a motion is expressed in the camera's own axes.
 std::vector<Pose2> camera_of(const Drive& drive, const RigGuess& guess, const std::vector<Stamp>& stamps) {
   std::vector<Pose2> poses = camera_at(drive.odometry, guess, stamps);
   for (Pose2& pose : poses) pose.heading_rad = wrap(pose.heading_rad + guess.rig.camera.yaw_offset_rad);
@@ -28,7 +28,7 @@ std::vector<Pose2> camera_of(const Drive& drive, const RigGuess& guess, const st
 
 Eigen::Vector2d seen_from(const Pose2& start, const Pose2& end) { return (inverse(start) * end).position(); }
 
-/// Mean square of how far a centre turns bearings.
+/// Mean square of the bearing changes that the found image centre causes.
 double turned_rad2(const Drive& drive, const RigGuess& said, const RigGuess& found) {
   if (said.centre_px == found.centre_px) return 0.0;
   RigGuess only = said;

@@ -21,15 +21,15 @@ namespace {
 const double kSure = std::log(1e4);
 constexpr double kSigmas = 4.0;
 constexpr int kMostNamed = 3;
-constexpr double kHalf = 0.5;          // of what is gross: a number that is known no better cannot be told to be right
-constexpr double kCostsShare = 0.025;  // of what is driven
+constexpr double kHalf = 0.5;          // a number is known if its sigma is below this fraction of `gross`
+constexpr double kCostsShare = 0.025;  // position error per distance driven above which a mistake matters
 
 bool is_off(const Off& off) { return std::abs(off.by) > kSigmas * off.sigma; }
 
-/// One mistake, as it explains the drive.
+/// The result of fitting the drive with one mistake corrected.
 struct Tried {
   Explanation explanation;
-  double evidence = 0.0;  // Schwarz's charge taken off
+  double evidence = 0.0;  // log likelihood gain minus the charge of Schwarz's criterion
   Off off;
   OffsetCost cost;
 
@@ -80,7 +80,7 @@ class Judge {
     verdict(mistake).sentence = std::move(sentence);
   }
 
-  /// With odometry that leaps, nothing else can be told.
+  /// False if odometry leaps: no other mistake can be tested then.
   bool recording_is_sound() {
     const OdometryLeaps leaps = odometry_leaps(drive_.odometry);
     if (!leaps.is_any()) {
@@ -117,8 +117,8 @@ class Judge {
     return tried;
   }
 
-  /// The likeliest one that is sure. A number that is not grossly off is asked for how far parts of the drive agree on
-  /// it: its error bar becomes theirs.
+  /// The mistake with the most evidence among those that are sure. If its number is not grossly off, the function first
+  /// replaces the number's covariance by spread_of(), which measures how well parts of the drive agree.
   std::vector<Tried>::iterator likeliest(std::vector<Tried>& tried) {
     const auto as_it_counts = [](const Tried& each) { return each.is_sure() ? each.evidence : 0.0; };
     while (true) {
@@ -133,7 +133,7 @@ class Judge {
     }
   }
 
-  /// What fits, or cannot be told, as it looks now.
+  /// Records the verdicts `fits` and `cannot_tell` from the present fits.
   void note(const std::vector<Tried>& tried) {
     for (const Tried& each : tried) note(each);
     for (const Mistake mistake : {Mistake::jump, Mistake::centre})
@@ -180,7 +180,7 @@ class Judge {
     return fmt::format("{} (as it is, that costs {})", wrong, sentence_costs(tried.cost));
   }
 
-  /// What explains the drive nearly as well, and may be it instead.
+  /// Text about the best rival mistake that explains the drive nearly as well as `best`; empty if there is none.
   std::string as_likely(const Tried& best, const std::vector<Tried>& tried) const {
     const Tried* rival = nullptr;
     for (const Tried& each : tried)
@@ -199,7 +199,7 @@ class Judge {
     explanations_->accept(tried.explanation.solution);
   }
 
-  /// With a centre that is right, or as right as may be: in an image it looks nearly the same.
+  /// Runs after the image centre is corrected, since a wrong centre and a tilt have nearly the same effect in an image.
   void judge_tilt() {
     const DriveSolution& now = explanations_->now();
     if (now.guess.mirrored)
@@ -223,8 +223,8 @@ class Judge {
     verdict(Mistake::creep).evidence = creep.evidence;
   }
 
-  /// By what was surveyed or by the true path, whichever tells better; nothing: neither does. One landmark whose place
-  /// is hardly known makes a whole map tell little.
+  /// Comparison with the surveyed landmarks or with the true path, whichever gives the smaller uncertainty: one poorly
+  /// estimated landmark makes the whole map uncertain. Nothing if neither comparison is possible.
   std::optional<Likeness> likeness_to_truth(const DriveSolution& solution) const {
     const auto by_map =
         drive_.names_are_landmarks ? likeness(points_of_map(solution, run_.landmarks)) : std::optional<Likeness>();
@@ -270,7 +270,7 @@ class Judge {
   double lengths_ = 1.0;
   std::optional<Creep> creep_;
   std::optional<CameraTilt> tilt_;
-  std::array<bool, kMistakes> closed_{};  // named, or left open for good
+  std::array<bool, kMistakes> closed_{};  // mistakes that are not tried any more: named, or undecidable
   Plausibility result_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Whether bearings and odometry of a drive can be what the rig says, and if not, what is likeliest to be wrong.
+// Checks whether the bearings and odometry of a drive are consistent with the rig, and names the likeliest mistakes.
 
 #include <cstdint>
 #include <limits>
@@ -14,32 +14,33 @@
 
 namespace azimuth {
 
-/// What came of looking for one of them.
+/// The result of the check for one mistake.
 struct MistakeVerdict {
   Mistake mistake = Mistake::hand;
   enum class Says : std::uint8_t { fits, wrong, cannot_tell } says = Says::cannot_tell;
-  std::string sentence;   ///< for a person, with the key to change and its value where something is wrong
-  double evidence = 0.0;  ///< of `wrong`: ln of how many times likelier the drive is with that value
+  std::string sentence;   ///< text for the user; for `wrong` with the key to change and its value
+  double evidence = 0.0;  ///< for `wrong`: ln of the likelihood ratio in favour of the corrected value
 };
 
 struct Plausibility {
-  std::vector<MistakeVerdict> verdicts;  ///< one for each mistake, in their order
-  Rig rig;                               ///< with all that is wrong put right
-  /// Share of the bearings that fit, with that; NaN: nobody asked them, for odometry is of no use.
+  std::vector<MistakeVerdict> verdicts;  ///< one for each mistake, in the order of `Mistake`
+  Rig rig;                               ///< the rig with all named mistakes corrected
+  /// Share of the bearings that fit with the corrected rig. NaN if bad odometry prevented the fit.
   double fitting = std::numeric_limits<double>::quiet_NaN();
 
   bool anything_wrong() const;
 };
 
-/// A mistake is named when the drive is ten thousand times likelier without it, each number that is adjusted charged as
-/// by Schwarz's criterion, when the number is four standard deviations from what the rig says, and when it costs: where
-/// odometry is right, the camera would be a fortieth of what was driven elsewhere after some metres. A number that is
-/// not grossly off must lie as far from the rig's by what the drive's own parts disagree. Several are named one after
-/// another, the likeliest first (SPEC VI.26).
+/// The check names a mistake if all of these hold: the drive is ten thousand times likelier without the mistake, after
+/// Schwarz's criterion charges each adjusted number; the number differs from the rig's by more than four standard
+/// deviations; and the mistake matters, because dead reckoning with the rig's value is off by more than a fortieth of
+/// the distance driven, or because the number is grossly off. If the number is not grossly off, the standard deviation
+/// is the one from spread_of(), by which parts of the drive disagree. Several mistakes are named one after another, the
+/// likeliest first (mathematics VI.26).
 ///
-/// The run's truth and its surveyed landmarks, where it has any, tell the scale of distances and which of two mirrored
-/// worlds is the true one, and nothing else. The drive has sets of bearings. `progress` counts fits: one of each
-/// mistake, and again once one is named.
+/// The run's truth and surveyed landmarks, if present, only serve to determine the scale of distances and to decide
+/// which of two mirrored worlds is the true one. Precondition: the drive has bearing sets. `progress` counts fits: one
+/// for each mistake, and the same number again after each named mistake.
 Plausibility judge(const Drive& drive, const Run& run, const Rig& rig, const HindsightSettings& settings,
                    const Progress& progress = {});
 

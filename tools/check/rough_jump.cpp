@@ -7,10 +7,11 @@
 namespace azimuth {
 namespace {
 
-constexpr double kMost_s = 6.0, kFine_s = 1.0;  // cameras buffer seconds; finely up to here
+// Largest lag that is tried, since cameras may buffer images for seconds; and the limit below which steps are fine.
+constexpr double kMost_s = 6.0, kFine_s = 1.0;
 constexpr double kStep_s = 0.1, kCoarse_s = 0.2;
 constexpr double kLeastJump_s = 0.15;
-// Cost of bearings that two lags must save: less is chance.
+// Two lags must reduce the cost of the bearings by at least this. A smaller reduction may be chance.
 constexpr double kLeastSaved = 10.0;
 
 std::vector<double> lags() {
@@ -27,12 +28,12 @@ RigGuess with_lag(RigGuess guess, double lag_s) {
 }
 
 struct TwoLags {
-  std::size_t first_after = 0;  // stretch
+  std::size_t first_after = 0;  // index of the first stretch after the jump
   double before_s = 0.0, after_s = 0.0;
   double cost = 0.0;
 };
 
-/// The cheapest lag for stretches up to each one, or from each one on.
+/// For each number n of stretches: the least total cost of the first n stretches with one common lag, and that lag.
 struct Cheapest {
   std::vector<double> cost, lag_s;
 };
@@ -64,7 +65,7 @@ TwoLags best_two(std::vector<std::vector<double>> costs, const std::vector<doubl
   return best;
 }
 
-/// At which image between the middles of two stretches.
+/// Refines the instant of the jump within the two stretches around it.
 RigGuess at_best_image(ShortStretches& stretches, const Drive& drive, RigGuess guess, std::size_t first_after) {
   const std::vector<Stamp>& starts = stretches.starts();
   const Stamp from = starts[first_after - 1],

@@ -1,5 +1,5 @@
 #pragma once
-// Internal to tools/check: where the camera's clock may have jumped.
+// Internal to tools/check: finds the instant at which the camera's clock may have jumped.
 
 #include <optional>
 
@@ -7,8 +7,8 @@
 
 namespace azimuth {
 
-/// The guess with the jump that short stretches speak for most: each has a lag of its own that fits it best, and two
-/// lags, one before and one after an instant, are to fit all. Nothing: one lag does as well.
+/// The guess with the clock jump that fits short stretches best. The search finds two lags, one before and one after an
+/// instant, that minimise the total cost of all stretches. Nothing if one lag fits as well.
 std::optional<RigGuess> rough_jump(ShortStretches& stretches, const Drive& drive, const RigGuess& guess);
 
 }  // namespace azimuth

@@ -8,7 +8,7 @@
 namespace azimuth {
 namespace {
 
-/// In the unit that a person thinks in.
+/// `value` in the unit that texts for the user use.
 std::string amount(Mistake mistake, double value) {
   const MistakeRow& row = row_of(mistake);
   return fmt::format("{:.2g} {}", row.per_unit * value, row.unit);
@@ -18,7 +18,7 @@ std::string would_fit(Mistake mistake, const Rig& said, const RigGuess& found, d
   return fmt::format("{} would fit best, +- {}", row_of(mistake).key(said, found), amount(mistake, sigma));
 }
 
-/// What finds it out to the last digit.
+/// The command that determines the number accurately.
 const char* calibrated_by(Mistake mistake) {
   const bool of_camera = mistake == Mistake::heading || mistake == Mistake::mount;
   return of_camera ? "azimuth calibrate heading" : "azimuth calibrate odometry";

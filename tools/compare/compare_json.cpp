@@ -47,7 +47,7 @@ Json change_json(const FigureChange& change) {
           {"trend", to_string(change.trend)}};
 }
 
-/// Of figures that somebody measured.
+/// Contains only figures that were measured.
 Json run_json(const ComparedRun& run) {
   Json changes = Json::object();
   for (std::size_t i = 0; i < kFigures; ++i)

@@ -7,14 +7,15 @@
 
 namespace azimuth {
 
-/// All of it: what --json writes, and what the page shows. `made_by` names the program; `past` is past_limits().
+/// The complete comparison, as --json writes it and as the page shows it. `made_by` names the program; `past` is the
+/// result of past_limits().
 nlohmann::ordered_json comparison_json(const Comparison& comparison, const CompareSettings& settings,
                                        const std::vector<std::string>& past, std::string_view made_by);
 
-/// As text, whatever the names are made of.
+/// Serialises the JSON value. Invalid UTF-8 in names is replaced.
 std::string json_text(const nlohmann::ordered_json& json, int indent);
 
-/// One page for a browser that needs nothing else.
+/// A self-contained HTML page.
 std::string comparison_page(const nlohmann::ordered_json& comparison);
 
 }  // namespace azimuth

@@ -33,7 +33,7 @@ std::string head(const Comparison& comparison) {
   return text;
 }
 
-/// What is not in the tables, each by its name.
+/// Runs that are not in the tables, each with its name and the reason.
 std::string absent(const Comparison& comparison) {
   std::string text;
   for (const std::string& name : comparison.missing) text += line("missing", name);
@@ -70,7 +70,7 @@ std::string group_text(const ComparedGroup& group, bool has_baseline) {
   return text;
 }
 
-/// What of a run is told beside its first numbers.
+/// Notes on further figures of a run whose trend matters.
 std::string run_notes(const ComparedRun& run) {
   std::string text;
   for (const Trend trend : {Trend::worse, Trend::gone, Trend::unjudged, Trend::better})

@@ -5,7 +5,7 @@
 
 namespace azimuth {
 
-/// A plain table: what is missing, then the averages by tag, then run by run, what got worse first.
+/// A plain text table: missing runs, then averages by tag, then each run, the worst first.
 std::string comparison_text(const Comparison& comparison);
 
 }  // namespace azimuth

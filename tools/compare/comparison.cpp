@@ -17,7 +17,7 @@ std::vector<std::string> versions_of(const Reports& reports) {
   return {versions.begin(), versions.end()};
 }
 
-/// Times and memory as if nobody had measured them.
+/// Marks computing times and memory as not measured.
 Reports without_costs(Reports reports) {
   for (RunReport& report : reports.all)
     for (std::size_t i = 0; i < kFigures; ++i)
@@ -25,7 +25,7 @@ Reports without_costs(Reports reports) {
   return reports;
 }
 
-/// Without a baseline what is least accurate comes first, and what has no truth last.
+/// Sort key without a baseline: the least accurate run comes first, runs without truth come last.
 double first_figure(const ComparedRun& run) {
   const double value = run.changes.front().after;
   return std::isnan(value) ? -1.0 : value;

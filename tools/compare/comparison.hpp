@@ -1,5 +1,5 @@
 #pragma once
-// Reports of a version beside those of another, run by run and tag by tag: what got worse, and how sure that is.
+// Compares the reports of two program versions, by run and by tag: which figures got worse, and how certain that is.
 
 #include <array>
 #include <cstdint>
@@ -13,86 +13,86 @@
 namespace azimuth {
 
 enum class Trend : std::uint8_t {
-  unmeasured,  ///< now and before, or there is nothing before
-  gone,        ///< measured before, no longer now
-  equal,       ///< to the last bit
-  alike,       ///< within the limits, or within what seeds scatter
+  unmeasured,  ///< not measured now and before, or no baseline
+  gone,        ///< measured before, but not now
+  equal,       ///< bit-identical
+  alike,       ///< the change is within the limits, or within the scatter of seeds
   better,
   worse,
-  unjudged,  ///< past the limits; but seeds differ, and none is repeated
+  unjudged,  ///< past the limits, but the seeds differ and no run is repeated with several seeds
 };
 std::string_view to_string(Trend trend);
 
 struct FigureChange {
-  double before, after;  ///< means over seeds; not a number: not measured
+  double before, after;  ///< means over seeds; NaN if not measured
   double change;         ///< see change_of()
-  double chance;         ///< that scatter of seeds alone does that; not a number: none is repeated
+  double chance;         ///< probability of this change by scatter of seeds alone; NaN without repeated seeds
   Trend trend;
-  double severity;  ///< the change over what is allowed; at most as large as the limits are loose
+  double severity;  ///< ratio of the change to the allowed change
 };
 
-/// A run in both, or now only.
+/// A run that both sides have, or only the new side.
 struct ComparedRun {
   std::string name;
   std::vector<std::string> tags;
-  std::vector<std::uint64_t> seeds, seeds_before;  ///< in order
-  std::string digest, digest_before;               ///< of the first seed's
+  std::vector<std::uint64_t> seeds, seeds_before;  ///< in ascending order
+  std::string digest, digest_before;               ///< digests of the first seed
   std::array<FigureChange, kFigures> changes;
 
   bool has(Trend trend) const;
-  double severity() const;  ///< the largest; if nothing got worse, the least
+  double severity() const;  ///< the largest severity; if no figure got worse, the least one
 };
 
-/// All runs with a tag, each counting once.
+/// All runs with a tag. Each run counts once.
 struct ComparedGroup {
   struct Mean {
-    double before, after;  ///< of the runs that have both, else of all that have it now
-    MeanInterval change;   ///< of their changes; by ratio: the geometric mean
-    Trend trend;           ///< unmeasured as well where runs are too few to judge
+    double before, after;  ///< means over the runs with both values, otherwise over all runs with a new value
+    MeanInterval change;   ///< mean change; for figures compared by ratio the geometric mean
+    Trend trend;           ///< also `unmeasured` if there are too few runs
   };
-  std::string tag;  ///< empty: all runs
+  std::string tag;  ///< empty for the group of all runs
   std::size_t runs = 0;
   std::array<Mean, kFigures> means;
 };
 
-/// A report that says why nothing came of its run, or what of it could not be read.
+/// A run that failed or whose recording is incomplete, with the reason.
 struct FailedRun {
   std::string name, why;
 };
 
-/// Several reports of one name and seed: the first is used.
+/// Several reports with the same name and seed, of which the first is used.
 struct TwiceReported {
-  std::string name, used, left_out;  ///< of files
+  std::string name, used, left_out;  ///< name of the run; file names of the used and the ignored report
 };
 
 struct CompareSettings {
   std::array<FigureLimits, kFigures> limits;
-  /// That any is called worse though nothing but seeds differs: shared by all that are tested.
+  /// Probability that any run is called worse although only seeds differ. All tests share this probability.
   double chance_of_false_alarm = 0.05;
-  bool with_costs = true;                                          ///< false: times and memory are left out
-  std::size_t missing = 0, failed = 0, unreadable = 0, twice = 0;  ///< allowed
+  bool with_costs = true;                                          ///< false ignores computing times and memory
+  std::size_t missing = 0, failed = 0, unreadable = 0, twice = 0;  ///< allowed numbers of such reports
 };
 CompareSettings default_compare_settings();
 
 struct Comparison {
   bool has_baseline = false;
-  std::vector<ComparedRun> runs;      ///< what got worse first; without a baseline the least accurate
-  std::vector<ComparedGroup> groups;  ///< all first, then by tag
-  std::vector<std::string> missing;   ///< in the baseline alone
-  std::vector<std::string> added;     ///< not in the baseline
+  std::vector<ComparedRun> runs;      ///< the worst change first; without a baseline the least accurate run first
+  std::vector<ComparedGroup> groups;  ///< all runs first, then by tag
+  std::vector<std::string> missing;   ///< runs that only the baseline has
+  std::vector<std::string> added;     ///< runs that the baseline does not have
   std::vector<FailedRun> failed, failed_before;
-  std::vector<FailedRun> incomplete;  ///< of logs that are cut, damaged or of other versions; each run once, by name
+  std::vector<FailedRun> incomplete;  ///< runs of truncated, damaged or incompatible logs; each run once, by name
   std::vector<TwiceReported> twice;
   FileErrors unreadable;
-  std::vector<std::string> older;    ///< files of versions that wrote neither name nor tags
-  std::vector<std::string> made_by;  ///< versions, and those before
+  std::vector<std::string> older;    ///< report files whose format has neither name nor tags
+  std::vector<std::string> made_by;  ///< program versions of the new reports, and of the baseline
   std::vector<std::string> made_by_before;
 };
 
-/// `before` may be null: there is nothing to compare with, and runs are told as they are.
+/// `before` may be null. The result then describes the runs without a comparison.
 Comparison compare(const Reports& after, const Reports* before, const CompareSettings& settings);
 
-/// What is past its limit, a sentence each; empty: nothing.
+/// One sentence for each value past its limit; empty if there is none.
 std::vector<std::string> past_limits(const Comparison& comparison, const CompareSettings& settings);
 
 }  // namespace azimuth

@@ -10,8 +10,8 @@ constexpr double kDegrees = 57.29577951308232;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr std::array<std::string_view, 3> kNothing{};
 
-/// Lengths and angles may jitter by a little, whatever part of them that is. One run's ANEES scatters, and up to 5 is
-/// about what is said. What a machine takes is judged where somebody says so, memory excepted.
+/// Absolute limits allow small changes of lengths and angles. The ANEES of a single run scatters, so values up to 5 are
+/// good enough. Computing times have no limits by default; memory has.
 constexpr std::array<Figure, kFigures> kAll{{
     {.key = "position_rmse_m",
      .label = "position RMSE",

@@ -1,5 +1,5 @@
 #pragma once
-// What of a report is compared: its numbers by name, and which way each is better.
+// The figures of a report that are compared, with their names, units and limits.
 
 #include <array>
 #include <cstddef>
@@ -12,46 +12,46 @@ namespace azimuth {
 
 enum class Better : std::uint8_t {
   lower,
-  higher,           ///< a share, 1 at most
-  nearer_to_three,  ///< ANEES
+  higher,           ///< for shares, which are at most 1
+  nearer_to_three,  ///< for the ANEES, whose ideal value is 3
 };
 
-/// When a change counts. A figure's badness is what is compared: see badness().
+/// Limits that decide whether a change counts. They apply to the badness of a figure: see badness(). A run is worse if
+/// its badness exceeds the limits `relative`, `absolute` and `good_enough` all together.
 struct FigureLimits {
-  double relative = 0.1;     ///< grown by more than this part of what it was; infinite: never
-  double absolute = 0.0;     ///< and by more than this
-  double good_enough = 0.0;  ///< and more than this now: whatever is no more is no trouble
-  double mean = 0.02;        ///< on the average of runs: more than this, as change_of() measures it
-  double worst = std::numeric_limits<double>::quiet_NaN();  ///< a value beyond which none may be, whatever it was
-                                                            ///< before; not a number: any may
+  double relative = 0.1;     ///< limit of the growth relative to the previous badness; infinite: no limit
+  double absolute = 0.0;     ///< limit of the growth
+  double good_enough = 0.0;  ///< limit of the new badness: smaller values are never worse
+  double mean = 0.02;        ///< limit of the mean change over runs, in terms of change_of()
+  /// Limit of the new value, independent of the previous value. NaN: no limit.
+  double worst = std::numeric_limits<double>::quiet_NaN();
 };
 
 struct Figure {
-  std::string_view key;    ///< as limits and tables name it; ends in its unit
-  std::string_view label;  ///< for people
-  std::string_view unit;   ///< of what is shown
-  double shown_factor;     ///< from the report's unit to that
+  std::string_view key;    ///< name in limits and tables; ends in the unit of the report
+  std::string_view label;  ///< name for the user
+  std::string_view unit;   ///< unit of displayed values
+  double shown_factor;     ///< conversion factor from the report's unit to `unit`
   int decimals;
   Better better;
-  std::array<std::string_view, 3> path;   ///< where a report has it; unused: empty
-  std::array<std::string_view, 3> total;  ///< what it is a share of; empty: nothing
-  bool by_ratio;                          ///< compared by how many times it is; else by the difference
-  bool is_cost;                           ///< of time or memory, which no two replays share
+  std::array<std::string_view, 3> path;   ///< JSON path of the value in a report; unused elements are empty
+  std::array<std::string_view, 3> total;  ///< JSON path of the value to divide by; empty if none
+  bool by_ratio;                          ///< true: compared by ratio; false: compared by difference
+  bool is_cost;                           ///< time or memory, which differ between any two replays
   FigureLimits limits;
 };
 
-/// In the order in which tables show them. Reentrant, as all of tools/compare.
+/// All figures, in the order of the tables. Reentrant, as all of tools/compare.
 std::span<const Figure> figures();
 
-/// Their number.
 inline constexpr std::size_t kFigures = 17;
 
-/// The more, the worse: the value, what a share lacks of 1, the factor by which ANEES is off 3 either way. Not a
-/// number: neither is the value.
+/// A measure that grows as the figure gets worse: the value itself, the difference of a share from 1, or the factor
+/// between ANEES and 3 in either direction. NaN if the value is NaN.
 double badness(const Figure& figure, double value);
 
-/// How much worse, in badness: the part by which it has grown, or the difference. 0 where both are the same; not a
-/// number where that says nothing.
+/// Change of badness: relative growth for figures compared by ratio, otherwise the difference. 0 if both are equal; NaN
+/// if the change is undefined.
 double change_of(const Figure& figure, double badness_before, double badness_after);
 
 }  // namespace azimuth

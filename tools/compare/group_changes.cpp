@@ -7,20 +7,20 @@
 namespace azimuth {
 namespace {
 
-/// Of fewer, an average proves nothing.
+/// Least number of runs for which a mean change is judged.
 constexpr std::size_t kFewestToJudge = 6;
 
 using Members = std::vector<const ComparedRun*>;
 
 double mean(const std::vector<double>& values) { return spread(values).mean; }
 
-/// What is averaged: of ratios their logarithms.
+/// Transforms a change for averaging: ratios are averaged as logarithms.
 double measure(const Figure& figure, double change) { return figure.by_ratio ? std::log1p(change) : change; }
 double unmeasure(const Figure& figure, double value) { return figure.by_ratio ? std::expm1(value) : value; }
 
-/// Changes, and the values that they lie between.
+/// Changes of one figure and the values from which they result.
 struct Pairs {
-  std::vector<double> changes, before, after, alone;  ///< `alone`: those now, of every run that has one
+  std::vector<double> changes, before, after, alone;  ///< `alone`: new values of all runs, with or without a baseline
 };
 
 Pairs pairs_of(const Members& members, std::size_t figure) {
@@ -37,7 +37,7 @@ Pairs pairs_of(const Members& members, std::size_t figure) {
   return pairs;
 }
 
-/// Student's test of whether the mean is above 0.
+/// One-sided p-value of Student's t-test for a mean above 0.
 double chance_of_mean(const std::vector<double>& changes) {
   const Spread all = spread(changes);
   const double error = std::sqrt(all.variance / static_cast<double>(all.count));

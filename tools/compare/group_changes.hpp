@@ -1,5 +1,5 @@
 #pragma once
-// Runs by their tags. Internal to tools/compare.
+// Groups runs by tag. Internal to tools/compare.
 
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace azimuth {
 
-/// All of `runs`, then those of each tag.
+/// The group of all runs, then one group for each tag.
 std::vector<ComparedGroup> compared_groups(const std::vector<ComparedRun>& runs, const CompareSettings& settings);
 
 }  // namespace azimuth

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kSamples = 4000;
 
-/// Splitmix64. The standard library's distributions differ from one implementation to the next.
+/// SplitMix64 generator. The distributions of the standard library differ between implementations.
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : state_(seed) {}
@@ -98,11 +98,11 @@ double student_tail(double t, double degrees) {
 
 double chance_of_rise(const Spread& a, const Spread& b) {
   if (a.count == 0 || b.count == 0 || (a.count < 2 && b.count < 2)) return kNoNumber;
-  // One that stands alone is taken to scatter as the other does.
+  // A side with a single value gets the variance of the other side.
   const double variance_a = a.count < 2 ? b.variance : a.variance, variance_b = b.count < 2 ? a.variance : b.variance;
   const double of_a = variance_a / static_cast<double>(a.count), of_b = variance_b / static_cast<double>(b.count);
   const double rise = b.mean - a.mean;
-  // What scatters less than the last bits of the mean does not scatter.
+  // Scatter below the rounding error of the mean counts as none.
   const double nothing = 1e-12 * std::max(std::abs(a.mean), std::abs(b.mean));
   if (std::sqrt(of_a + of_b) <= nothing) return rise > nothing ? 0.0 : 1.0;
   const auto share = [](double of, std::size_t count) {

@@ -1,5 +1,5 @@
 #pragma once
-// How sure a difference is.
+// Statistical tests of differences.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,29 +8,29 @@
 
 namespace azimuth {
 
-/// What was not measured, and what cannot be said.
+/// Stands for values that were not measured or that cannot be determined.
 inline constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
-/// A mean and where it may lie; not a number where there is too little to tell.
+/// A mean and its confidence interval; NaN if there are too few values.
 struct MeanInterval {
   double mean;
-  double low, high;  ///< 95 %
+  double low, high;  ///< limits of the 95 % interval
   std::size_t count = 0;
 };
 
-/// The mean of `values`, with the percentiles 2.5 and 97.5 of the means of 4000 samples drawn from them with
-/// replacement. The same values and seed give the same bits on every machine. Below two values there is no interval.
+/// The mean of `values` with a bootstrap interval: the percentiles 2.5 and 97.5 of the means of 4000 samples drawn with
+/// replacement. The same values and seed give the same bits on every machine. Fewer than two values give no interval.
 MeanInterval bootstrap_mean(std::span<const double> values, std::uint64_t seed = 1);
 
-/// Mean and variance (unbiased; 0 of a single one) of what is not empty.
+/// Mean and unbiased variance of at least one value. The variance of a single value is 0.
 struct Spread {
   double mean, variance;
   std::size_t count;
 };
 Spread spread(std::span<const double> values);
 
-/// How probable a difference of means as large as `b` over `a`, or larger, is by scatter alone: Welch's test,
-/// one-sided. Not a number when neither has two values; 0 or 1 when nothing scatters.
+/// One-sided p-value of Welch's t-test: the probability of a rise of the mean from `a` to `b` as large as observed, or
+/// larger, by scatter alone. NaN if neither side has two values; 0 or 1 if the values do not scatter.
 double chance_of_rise(const Spread& a, const Spread& b);
 
 /// P(T > t) of Student's distribution with `degrees` > 0 degrees of freedom.

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kMost = 1e9;
 
-/// Counts as the table [reports] has them.
+/// The counts of the table [reports].
 struct Allowed {
   int missing = 0, failed = 0, unreadable = 0, twice = 0;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// The limits of `azimuth compare --limits FILE`.
+// The limits of `azimuth report compare --limits FILE`.
 
 #include <string>
 #include <string_view>
@@ -9,7 +9,7 @@
 
 namespace azimuth {
 
-/// Reads the TOML text of limits over the defaults; `file` is what violations name, every one of which is told.
+/// Reads limits from TOML text; missing values keep their defaults. All violations are reported; they name `file`.
 FileResult<CompareSettings> read_limits(std::string_view text, const std::string& file);
 
 }  // namespace azimuth

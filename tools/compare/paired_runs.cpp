@@ -6,7 +6,7 @@
 namespace azimuth {
 namespace {
 
-/// The first of a seed stays.
+/// Adds a report. If the seed is already present, the first report stays.
 void add(const RunReport& report, Repeats& repeats, Comparison& comparison) {
   const auto same = std::ranges::find(repeats, report.seed, &RunReport::seed);
   if (same != repeats.end())
@@ -15,7 +15,7 @@ void add(const RunReport& report, Repeats& repeats, Comparison& comparison) {
     repeats.push_back(&report);
 }
 
-/// Another seed, and mostly the baseline too, replays the same log.
+/// Adds each run once, since its other seeds, and usually the baseline, replay the same log.
 void add_incomplete(const RunReport& report, std::vector<FailedRun>& incomplete) {
   if (report.incomplete.empty() || std::ranges::find(incomplete, report.name, &FailedRun::name) != incomplete.end())
     return;

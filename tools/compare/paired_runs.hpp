@@ -1,5 +1,5 @@
 #pragma once
-// Reports sorted by the names of their runs. Internal to tools/compare.
+// Groups reports by the names of their runs. Internal to tools/compare.
 
 #include <map>
 #include <string>
@@ -9,17 +9,17 @@
 
 namespace azimuth {
 
-/// Reports of one run, of different seeds, in their order.
+/// Reports of one run with different seeds, in ascending order of seeds.
 using Repeats = std::vector<const RunReport*>;
 
-/// The runs of one side. Failures, repetitions and older ones are told in `comparison`.
+/// The runs of one side. Failed runs go to `failed`; `comparison` records duplicates and reports in an older format.
 std::map<std::string, Repeats> runs_by_name(const Reports& reports, Comparison& comparison,
                                             std::vector<FailedRun>& failed);
 
-/// Badness of one figure in each that has it.
+/// Badness of one figure in each report that contains it.
 std::vector<double> badnesses(const Repeats& repeats, std::size_t figure);
 
-/// Mean of its values; not a number: none has it.
+/// Mean of the figure's values; NaN if no report contains it.
 double mean_value(const Repeats& repeats, std::size_t figure);
 
 }  // namespace azimuth

@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A report takes some kilobytes.
+/// Upper limit of the file size. A report normally has some kilobytes.
 constexpr std::uintmax_t kLargest_bytes = 4'000'000;
 
 std::vector<fs::path> files_below(const fs::path& folder, FileErrors& errors) {

@@ -1,5 +1,5 @@
 #pragma once
-// Reports by files and folders.
+// Reads reports from files and folders.
 
 #include <filesystem>
 #include <span>
@@ -11,13 +11,13 @@
 
 namespace azimuth {
 
-/// All that was found, in the order in which it was given, and of a folder by name.
+/// The reports in the order of the arguments, within a folder sorted by name.
 struct Reports {
   std::vector<RunReport> all;
-  FileErrors unreadable;  ///< one for each file that cannot be used; the others are there all the same
+  FileErrors unreadable;  ///< one error for each unusable file
 };
 
-/// `places`: reports, and folders that have them as *.json, at any depth.
+/// `places`: report files, and folders that contain reports as *.json at any depth.
 Reports read_reports(std::span<const std::filesystem::path> places, const Progress& progress = {});
 
 }  // namespace azimuth

@@ -13,7 +13,7 @@ std::vector<std::uint64_t> seeds_of(const Repeats& repeats) {
   return seeds;
 }
 
-/// By how many times the growth from `low` to `high` is more than what is allowed; 1 at most: it counts for nothing.
+/// Ratio of the growth from `low` to `high` to the allowed growth. A ratio of at most 1 is within the limits.
 double excess(const FigureLimits& limits, double low, double high) {
   const double allowed = std::max(limits.relative * low, limits.absolute);
   if (high <= limits.good_enough || std::isnan(allowed)) return 0.0;
@@ -21,7 +21,7 @@ double excess(const FigureLimits& limits, double low, double high) {
   return allowed > 0.0 ? (high - low) / allowed : std::numeric_limits<double>::infinity();
 }
 
-/// Rounding must not decide whether 20 % is more than 20 %.
+/// Tolerance for rounding errors at the limit.
 constexpr double kJustAllowed = 1.0 + 1e-9;
 
 class Judge {

@@ -13,8 +13,8 @@ using Parsed = nlohmann::json;
 using Path = std::array<std::string_view, 3>;
 
 constexpr std::size_t kLongestName = 300, kMostTexts = 100;
-constexpr int kMostLevels = 32;                   // ours have five
-constexpr std::size_t kLongestIncomplete = 1000;  // a dozen counts with what they are of
+constexpr int kMostLevels = 32;                   // limit of the nesting depth; reports have five levels
+constexpr std::size_t kLongestIncomplete = 1000;  // limit of the text's length [bytes]
 
 struct TooDeep : std::exception {};
 
@@ -25,7 +25,7 @@ std::string text_of(const Path& path) {
   return text;
 }
 
-/// Null stands for whatever is not there.
+/// The value at a path; null if it does not exist.
 const Parsed& at(const Parsed& json, const Path& path) {
   static const Parsed kNull;
   const Parsed* found = &json;
@@ -37,7 +37,7 @@ const Parsed& at(const Parsed& json, const Path& path) {
   return *found;
 }
 
-/// Members of a report, and what is wrong with them.
+/// Reads the members of a report and collects errors.
 class ReportReader {
  public:
   ReportReader(const Parsed& json, const std::string& file) : json_(json), errors_(file) {}
@@ -127,7 +127,7 @@ FileResult<RunReport> read_report(std::string_view text, const std::string& file
   } catch (const TooDeep&) {
     return failure({file, 0, "is deeper than any report of azimuth replay"});
   } catch (const Parsed::exception&) {
-    // A text that ends too early is one that is good as far as it goes; what else is wrong with it nobody asks.
+    // The message covers truncated files and other syntax errors alike.
     return failure({file, 0, text.empty() ? "is empty" : "is cut short, or no JSON"});
   }
   if (!json.is_object()) return failure({file, 0, "is no report of azimuth replay: it is no object"});

@@ -1,5 +1,5 @@
 #pragma once
-// One report of `azimuth replay`, as far as it is compared.
+// The values of one report of `azimuth replay` that are compared.
 
 #include <array>
 #include <cstdint>
@@ -13,21 +13,21 @@
 namespace azimuth {
 
 struct RunReport {
-  std::string file;  ///< as given to the reader
-  std::string name;  ///< what pairs it with others: that of `replay --name`, else its run's
+  std::string file;  ///< file name as given to the reader
+  std::string name;  ///< pairs the report with others: the name from `replay --name`, otherwise that of the run
   std::vector<std::string> tags;
-  std::vector<std::string> overrides;  ///< what `--set` changed
+  std::vector<std::string> overrides;  ///< settings changed with `--set`
   std::string estimator, made_by;      ///< may be empty
-  std::string digest;                  ///< of the estimates; empty: unknown
+  std::string digest;                  ///< digest of the estimates; empty if unknown
   std::uint64_t seed = 0;
-  bool is_older = false;                  ///< of a version that wrote neither name nor tags
-  std::string incomplete;                 ///< what of the recording could not be read; empty: nothing
-  std::string failure;                    ///< why nothing came of the run; empty: something did
-  std::array<double, kFigures> values{};  ///< in the reports' units, of figures(); not a number: not measured
+  bool is_older = false;                  ///< the report's format has neither name nor tags
+  std::string incomplete;                 ///< unreadable part of the recording; empty if none
+  std::string failure;                    ///< reason why the replay failed; empty if it succeeded
+  std::array<double, kFigures> values{};  ///< in the order of figures(), in the report's units; NaN: not measured
 };
 
-/// Reads the text of a report, or of what stands in its place where a replay failed: an object with `name` and
-/// `failure`. `file` is what an error names. Throws nothing but std::bad_alloc, whatever the text.
+/// Reads the text of a report, or of the object with `name` and `failure` that replaces the report of a failed replay.
+/// Errors name `file`. For any text, the function throws at most std::bad_alloc.
 FileResult<RunReport> read_report(std::string_view text, const std::string& file);
 
 }  // namespace azimuth

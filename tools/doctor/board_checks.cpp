@@ -1,4 +1,4 @@
-// What a small computer lacks first: a supply that holds, and a way for its heat.
+// Checks of the supply voltage and the cooling, the most frequent problems of small computers.
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Bits of a Raspberry Pi's firmware: what is the case now. Sixteen bits higher: what has been since it was switched on.
+// Status bits of the Raspberry Pi firmware. Sixteen bits higher are the same bits accumulated since power-on.
 constexpr std::int64_t kUnderVoltage = 0x1, kCapped = 0x2, kThrottled = 0x4, kSoftLimit = 0x8;
 constexpr int kSinceStart = 16;
 constexpr std::int64_t kSlowed = kCapped | kThrottled | kSoftLimit;
@@ -22,7 +22,7 @@ constexpr const char* kBetterSupply =
     "sudo dmesg | grep -i voltage\n# a supply of more current, a shorter cable; what draws much from a hub of its own";
 constexpr const char* kBetterCooling = "grep . /sys/class/thermal/*/temp\n# a heat sink, a fan, air";
 
-/// What the firmware of a Raspberry Pi says, where its kernel's driver hands it on.
+/// The status bits of the Raspberry Pi firmware, if the kernel's driver provides them.
 std::optional<std::int64_t> firmware_bits(const Machine& machine) {
   const fs::path driver = machine.at("/sys/bus/platform/drivers/raspberrypi-firmware");
   for (const fs::path& device : entries(driver, "")) {
@@ -31,7 +31,7 @@ std::optional<std::int64_t> firmware_bits(const Machine& machine) {
   return std::nullopt;
 }
 
-/// The same board under a kernel that has a sensor for it: 1 when the voltage was too low a moment ago.
+/// The undervoltage alarm of the same board, if the kernel provides a hardware monitor for it.
 std::optional<bool> voltage_alarm(const Machine& machine) {
   for (const fs::path& sensor : entries(machine.at("/sys/class/hwmon"), "hwmon")) {
     if (first_line(sensor / "name") != "rpi_volt") continue;
@@ -40,7 +40,7 @@ std::optional<bool> voltage_alarm(const Machine& machine) {
   return std::nullopt;
 }
 
-/// What slows the processor down when it is hot, by name: "cpufreq-cpu0", "thermal-cpufreq-0", "Processor".
+/// True if a cooling device throttles the processor: types "cpufreq-cpu0", "thermal-cpufreq-0" or "Processor".
 bool slows_the_processor(const fs::path& cooling_device) {
   const std::string type = first_line(cooling_device / "type").value_or("");
   return type.find("cpufreq") != std::string::npos || type == "Processor";
@@ -59,7 +59,8 @@ struct Zone {
   double limit_celsius = 0.0;
 };
 
-/// The lowest temperature at which something is done about it, other than switching on a fan. Zero and less: unset.
+/// The lowest temperature at which the kernel takes measures other than switching on a fan. Trip points of zero or less
+/// are unset.
 std::optional<double> lowest_limit_celsius(const fs::path& zone) {
   std::optional<double> lowest;
   for (int trip = 0;; ++trip) {
@@ -72,7 +73,7 @@ std::optional<double> lowest_limit_celsius(const fs::path& zone) {
   }
 }
 
-/// The one that has the least way to go until something is done about it.
+/// The thermal zone with the least margin to its limit.
 std::optional<Zone> hottest_zone(const Machine& machine) {
   std::optional<Zone> hottest;
   for (const fs::path& folder : entries(machine.at("/sys/class/thermal"), "thermal_zone")) {
@@ -114,7 +115,7 @@ Findings check_supply(const Machine& machine) {
 
 Finding check_heat(const Machine& machine) {
   const std::int64_t bits = firmware_bits(machine).value_or(0);
-  // A voltage that is too low slows it down too, and is a finding of its own.
+  // Undervoltage also throttles the processor, but is a finding of its own.
   const bool slowed_by_firmware = (bits & kSlowed) != 0 && (bits & kUnderVoltage) == 0;
   if (slowed_by_firmware || is_slowed_by_heat(machine))
     return {"heat", Verdict::warning, "the processor is slowed down because it is hot: steps take longer",

@@ -24,10 +24,10 @@ using Clock = std::chrono::steady_clock;
     if (count <= 0) ::_exit(1);
     written += static_cast<std::size_t>(count);
   }
-  ::_exit(0);  // what the parent has not yet printed is its own
+  ::_exit(0);  // exit() would flush copies of the parent's output buffers
 }
 
-/// Until the other end is closed; nothing when the time is over before.
+/// Reads until the other end is closed; nothing if that takes longer than until `end`.
 std::optional<std::string> read_until(int fd, Clock::time_point end) {
   std::string text;
   std::array<char, 4096> part{};
@@ -43,7 +43,7 @@ std::optional<std::string> read_until(int fd, Clock::time_point end) {
   }
 }
 
-/// Whether it ended well. One that even the kernel cannot end, because a device holds it, is left to it.
+/// True if the child exited normally. A child that cannot be killed because it waits for a device is abandoned.
 bool end_well(pid_t process, bool answered) {
   if (!answered) ::kill(process, SIGKILL);
   int status = 0;

@@ -6,8 +6,9 @@
 
 namespace azimuth {
 
-/// What `ask` answers, asked in a process of its own: a library that waits for a device for ever is ended with that.
-/// Nothing when there is no answer in time. Only for a process without other threads.
+/// Runs `ask` in a child process and returns its result. If there is no result in time, the child is killed, so that a
+/// library that waits for a device for ever does no harm, and the result is nothing. Precondition: the calling process
+/// has no other threads.
 std::optional<std::string> answer_within(std::chrono::milliseconds limit, const std::function<std::string()>& ask);
 
 }  // namespace azimuth

@@ -23,7 +23,7 @@ std::vector<VideoNode> video_nodes(const Machine& machine) {
   return machine.video_nodes ? machine.video_nodes() : std::vector<VideoNode>();
 }
 
-/// "/dev/video0 (HD Webcam, USB 1-2, serial A1)"
+/// Example: "/dev/video0 (HD Webcam, USB 1-2, serial A1)".
 std::string described(const VideoNode& node) {
   std::string about = node.card;
   if (!node.usb.port.empty()) about += (about.empty() ? "USB " : ", USB ") + node.usb.port;
@@ -31,7 +31,8 @@ std::string described(const VideoNode& node) {
   return about.empty() ? node.path : fmt::format("{} ({})", node.path, about);
 }
 
-/// What opening it said counts for whoever asks, since access lists may allow more than the mode; nothing: all is well.
+/// The problem that prevents the use of a camera; nothing if there is none. If this process runs as the account, the
+/// result of opening the device counts, since access control lists may allow more than the file mode.
 std::optional<Finding> obstacle(const Machine& machine, const VideoNode& node) {
   const bool tried = machine.account.is_here;
   const fs::path file = machine.at(node.path);
@@ -48,7 +49,7 @@ std::optional<Finding> obstacle(const Machine& machine, const VideoNode& node) {
 Findings check_video_nodes(const Machine& machine, const std::vector<VideoNode>& nodes) {
   Findings findings;
   for (const VideoNode& node : nodes) {
-    if (node.gives_images == false) continue;  // of metadata, beside the one that matters
+    if (node.gives_images == false) continue;  // a metadata node beside the image node
     const auto trouble = obstacle(machine, node);
     findings.push_back(trouble ? *trouble
                                : Finding{kCameraCheck, Verdict::ok,
@@ -59,7 +60,7 @@ Findings check_video_nodes(const Machine& machine, const std::vector<VideoNode>&
   return findings;
 }
 
-/// The node that a path leads to, or the first that another name means; null: none.
+/// The node at a path, or the first node that another kind of name matches; null if there is none.
 const VideoNode* meant_node(const Machine& machine, const std::vector<VideoNode>& nodes, const std::string& device) {
   const auto is_it = [&](const VideoNode& node) {
     if (!device.starts_with('/')) return v4l2::is_meant(device, node);
@@ -83,7 +84,7 @@ Finding check_wanted_video(const Machine& machine, const std::vector<VideoNode>&
   return {kCameraCheck, Verdict::ok, wanted + " is " + node->path, ""};
 }
 
-/// FireWire nodes are the machine's own controllers and disks as well; one that does not say may be a camera.
+/// FireWire nodes also include controllers and disks. A node that does not state its kind may be a camera.
 bool may_be_camera(const Machine& machine, const std::string& name) {
   const auto units = file_content(machine.at("/sys/bus/firewire/devices/" + name + "/units"));
   return !units || units->find("0x00a02d:0x00010") != std::string::npos ||  // IIDC's

@@ -22,18 +22,18 @@ struct FoundCanInterface {
   std::string name;
   bool is_up = false;
   bool is_virtual = false;
-  std::optional<std::int64_t> bit_rate;  ///< bit/s; nothing: not known
-  std::string state;                     ///< of the controller, e.g. "BUS-OFF"; empty: not known
+  std::optional<std::int64_t> bit_rate;  ///< [bit/s]; nothing if unknown
+  std::string state;                     ///< state of the controller, e.g. "BUS-OFF"; empty if unknown
 };
 
-/// A member of an object, or null.
+/// A member of an object; null if it does not exist.
 json member(const json& object, const char* key) {
   const auto found = object.is_object() ? object.find(key) : object.end();
   return object.is_object() && found != object.end() ? *found : json();
 }
 std::string word(const json& value) { return value.is_string() ? value.get<std::string>() : ""; }
 
-/// What `ip -json -details link show` says of an interface; its bit rate stands nowhere in sysfs.
+/// Adds details from the output of `ip -json -details link show`. The bit rate is not available in sysfs.
 void add_details(const json& links, FoundCanInterface& found) {
   for (const json& link : links) {
     if (word(member(link, "ifname")) != found.name) continue;
@@ -76,7 +76,7 @@ std::string switch_on(const FoundCanInterface& found) {
                      found.name, up);
 }
 
-/// One that is used, or may be.
+/// Checks an interface that is used or may be used. `when_down`: verdict if the interface is down.
 Finding check_interface(const FoundCanInterface& found, Verdict when_down) {
   const std::string what = described(found);
   if (!found.is_up) return {kCanCheck, when_down, what, switch_on(found)};

@@ -1,4 +1,4 @@
-// Whether the processor suffices, and whether threads are where it is fast.
+// Checks whether the processor has enough cores, and whether threads run on the fast ones.
 
 #include <charconv>
 #include <fmt/format.h>
@@ -18,7 +18,7 @@ namespace {
 constexpr int kEnoughCores = 2;
 constexpr double kEnoughMemory_mb = 250.0;
 
-/// "0-3,6" as numbers.
+/// Parses a list such as "0-3,6".
 std::vector<int> numbers_in_list(std::string_view list) {
   std::vector<int> numbers;
   const char *at = list.data(), *const end = at + list.size();
@@ -36,7 +36,7 @@ std::vector<int> numbers_in_list(std::string_view list) {
 
 std::string list_of(const std::vector<int>& numbers) { return fmt::format("{}", fmt::join(numbers, ", ")); }
 
-/// CPUs that are switched on, by how fast they are beside each other. A processor of one kind of cores has one entry.
+/// CPUs that are online, by relative speed. A processor with one kind of cores has one entry.
 using CoresBySpeed = std::map<std::int64_t, std::vector<int>>;
 
 CoresBySpeed cores_of(const Machine& machine) {
@@ -47,7 +47,7 @@ CoresBySpeed cores_of(const Machine& machine) {
   return cores;
 }
 
-/// The board's name where there is one, such as "Raspberry Pi 4 Model B Rev 1.4: ".
+/// The board's name with a colon, such as "Raspberry Pi 4 Model B Rev 1.4: "; empty if unknown.
 std::string board(const Machine& machine) {
   const std::string name = file_content(machine.at("/proc/device-tree/model")).value_or("");
   const std::string until_zero = name.substr(0, name.find('\0'));

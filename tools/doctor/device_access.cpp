@@ -83,7 +83,7 @@ std::vector<Process> users_of(const Machine& machine, const fs::path& file) {
 }
 
 std::optional<Process> process_named(const Machine& machine, std::string_view name) {
-  constexpr std::size_t kLongestName = 15;  // the kernel cuts it there
+  constexpr std::size_t kLongestName = 15;  // the kernel truncates names to this length
   for (const Process& process : processes(machine)) {
     if (process.name == name.substr(0, kLongestName)) return process;
   }

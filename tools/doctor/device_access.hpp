@@ -11,15 +11,17 @@ namespace azimuth {
 
 enum class Access { granted, denied, missing };
 
-/// Whether the account may read and write a file, by the file's owner, group and mode: the daemon is not run for it.
+/// Access of the account to a file (read and write), derived from the file's owner, group and mode.
 Access access_to(const Machine& machine, const std::filesystem::path& file);
 
-/// A denial as a finding: names the group that would be let in, and how the account gets into it; else how the device
-/// is given to `usual_group`. `device` is its path, and after a blank what else is known of it.
+/// A finding for denied access. It names the group that has access and the command that adds the account to the group.
+/// If no group has access, it says how to give the device to `usual_group`. `device`: path of the device, optionally
+/// followed by a blank and a description.
 Finding denied(const Machine& machine, const std::string& check, const std::string& device,
                const std::filesystem::path& file, const std::string& usual_group);
 
-/// The commands that put the account into a group, or the hint to log in again when it is in it, but this process not.
+/// The commands that add the account to a group. If the account is already a member but this process is not, a hint to
+/// log in again.
 std::string join_group(const Machine& machine, gid_t group);
 
 struct Process {
@@ -27,10 +29,10 @@ struct Process {
   std::string name;
 };
 
-/// Processes that have the file open, among those whose files may be looked into.
+/// Processes that have the file open. Only processes whose open files are readable are considered.
 std::vector<Process> users_of(const Machine& machine, const std::filesystem::path& file);
 
-/// A process of this name; nothing when none runs.
+/// A running process with this name; nothing if there is none.
 std::optional<Process> process_named(const Machine& machine, std::string_view name);
 
 }  // namespace azimuth

@@ -8,7 +8,7 @@ namespace azimuth {
 namespace {
 
 Findings check_robot(const Machine& machine, const Plan& plan) {
-  if (plan.devices.empty() && !plan.wants_serial) return {};  // odometry comes by another way
+  if (plan.devices.empty() && !plan.wants_serial) return {};  // odometry does not use a serial device
   const std::vector<std::string> devices = plan.devices.empty() ? serial_devices(machine) : plan.devices;
   Findings findings;
   for (const std::string& device : devices) append(findings, check_serial(machine, device));

@@ -5,7 +5,7 @@
 
 namespace azimuth {
 
-/// All checks, in the order in which a robot is set up.
+/// Runs all checks, in the order in which a robot is set up.
 Findings examine(const Machine& machine, const Plan& plan);
 
 }  // namespace azimuth

@@ -32,7 +32,7 @@ std::string to_json(const Findings& findings) {
                     {"fix", finding.fix.empty() ? Json(nullptr) : Json(finding.fix)}});
   }
   const Json json{{"verdict", to_string(worst(findings))}, {"findings", std::move(list)}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // names of files need not be UTF-8
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // file names need not be valid UTF-8
 }
 
 }  // namespace azimuth

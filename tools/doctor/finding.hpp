@@ -9,8 +9,8 @@ namespace azimuth {
 
 enum class Verdict {
   ok,
-  unknown,  ///< the system does not say, or not to this user
-  warning,  ///< works, but worse than it could, or not in every case
+  unknown,  ///< the system does not provide the information, or not to this user
+  warning,  ///< works, but not optimally or not in every case
   error     ///< does not work
 };
 
@@ -30,23 +30,23 @@ constexpr std::string_view to_string(Verdict verdict) {
 
 /// The outcome of one check.
 struct Finding {
-  std::string check;  ///< what was looked at, in one word
+  std::string check;  ///< name of the check, one word
   Verdict verdict = Verdict::ok;
-  std::string what;  ///< what was found, in words
-  std::string fix;   ///< the command, or the commands one a line, that mend it; empty when there is nothing to do
+  std::string what;  ///< description of the result
+  std::string fix;   ///< commands that solve the problem, one per line; empty if nothing needs to be done
 };
 
 using Findings = std::vector<Finding>;
 
 inline void append(Findings& all, Findings more) { std::ranges::move(more, std::back_inserter(all)); }
 
-/// The gravest verdict; ok when there is no finding.
+/// The worst verdict; ok if there is no finding.
 Verdict worst(const Findings& findings);
 
-/// For a reader: a line a finding, the commands below it.
+/// Text for the user: one line per finding, followed by its commands.
 std::string text(const Findings& findings);
 
-/// {"verdict": ..., "findings": [{"check", "verdict", "what", "fix"}]}; "fix" is null when there is none.
+/// {"verdict": ..., "findings": [{"check", "verdict", "what", "fix"}]}; "fix" is null if there is none.
 std::string to_json(const Findings& findings);
 
 }  // namespace azimuth

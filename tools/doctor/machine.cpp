@@ -61,7 +61,7 @@ std::optional<std::uint64_t> free_on_disk(const fs::path& folder) {
   return std::uint64_t{disk.f_bavail} * disk.f_frsize;
 }
 
-/// For the shell: between single quotes nothing has a meaning but the single quote.
+/// Quotes a word for the shell. Between single quotes, only the single quote itself is special.
 std::string quoted(const std::string& word) {
   std::string out = "'";
   for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -82,7 +82,8 @@ std::optional<ProgramOutcome> run_program(const std::vector<std::string>& comman
   return outcome;
 }
 
-/// Devices that do not answer cost libdc1394 a second or so for each question.
+/// Lists IIDC cameras with a time limit, since libdc1394 waits about a second per request for devices that do not
+/// answer.
 std::optional<IidcBus> answering_iidc_cameras() {
   constexpr std::chrono::seconds kPatience{5};
   const auto answer = answer_within(kPatience, [] {
@@ -166,7 +167,7 @@ std::optional<std::int64_t> number_in(const fs::path& file, int base) {
   const std::optional<std::string> line = first_line(file);
   if (!line) return std::nullopt;
   std::string_view digits = *line;
-  digits.remove_prefix(std::min(digits.find_first_not_of(' '), digits.size()));  // lock files pad with them
+  digits.remove_prefix(std::min(digits.find_first_not_of(' '), digits.size()));  // lock files pad numbers with blanks
   if (base == 16 && digits.starts_with("0x")) digits.remove_prefix(2);
   std::int64_t number = 0;
   if (std::from_chars(digits.data(), digits.data() + digits.size(), number, base).ec != std::errc{})

@@ -21,17 +21,17 @@ struct Route {
   std::uint32_t mask = 0;
 };
 
-/// /proc/net/route prints addresses as the machine holds them, network order in memory.
+/// Converts an address of /proc/net/route, which prints the network byte order as a host integer.
 std::uint32_t address(std::uint32_t printed) {
   return std::endian::native == std::endian::little ? __builtin_bswap32(printed) : printed;
 }
 
-/// The route the kernel takes to the group: of those that match, the one with the longest mask.
+/// The route that the kernel takes to the multicast group: the matching one with the longest mask.
 std::optional<Route> route_to_group(const std::string& table) {
   std::optional<Route> best;
   std::istringstream lines(table);
   std::string line;
-  std::getline(lines, line);  // the heading
+  std::getline(lines, line);  // skips the header
   while (std::getline(lines, line)) {
     std::istringstream fields(line);
     std::string interface;

@@ -15,14 +15,14 @@
 namespace azimuth {
 namespace {
 
-/// The few keys of the daemon that say what it uses.
+/// The keys of the daemon's configuration that determine the resources it uses.
 struct Configured {
-  std::string odometer = "none", camera = "none";  // of whatever kinds the daemon knows
+  std::string odometer = "none", camera = "none";  // kinds of sources
   std::string device = "/dev/ttyUSB0";
   std::string v4l2_device = V4l2Settings{}.device, iidc_guid, can_interface = CanSettings{}.interface;
   std::string folder;
   double min_free_mb = 0.0;
-  // By the names of their keys; -1: any.
+  // Cores of the threads by key; -1: any core.
   std::array<std::pair<const char*, int>, 5> cpus{
       {{"source_cpu", -1}, {"perception_cpu", -1}, {"estimator_cpu", -1}, {"publisher_cpu", -1}, {"recorder_cpu", -1}}};
 };
@@ -48,7 +48,7 @@ std::vector<Section> sections(Configured& configured) {
       cpu_section(configured)};
 }
 
-/// A configuration without odometer or camera is taken for one that is not finished: any may be meant.
+/// A configuration without odometer or camera counts as unfinished; then all kinds of sensors are checked.
 void add_sensors(const Configured& configured, Plan& plan) {
   const std::string &odometer = configured.odometer, &camera = configured.camera;
   if (odometer == "pioneer" && plan.devices.empty()) plan.devices.push_back(configured.device);
@@ -71,8 +71,8 @@ void add_configured(std::string_view toml, Plan& plan) {
   Configured configured;
   configured.min_free_mb = plan.min_free_mb;
   std::vector<Section> tables = sections(configured);
-  static_cast<void>(read_toml(toml, "", pointers(tables)));              // all the other keys are unknown here
-  static_cast<void>(place_paths(pointers(tables), plan.configuration));  // as the daemon does, which warns of it
+  static_cast<void>(read_toml(toml, "", pointers(tables)));              // ignores other keys
+  static_cast<void>(place_paths(pointers(tables), plan.configuration));  // the daemon reports errors
   add_sensors(configured, plan);
   for (const auto& [key, cpu] : configured.cpus)
     if (cpu >= 0) plan.thread_cpus.push_back({key, cpu});

@@ -18,7 +18,7 @@ std::string without_last_line_end(std::string text) {
   return text;
 }
 
-/// What the daemon says of a configuration that it takes all the same.
+/// Extracts the warnings that the daemon prints for a valid configuration.
 std::string warnings_in(const std::string& output) {
   constexpr std::string_view kWarning = "warning: ";
   std::string warnings;

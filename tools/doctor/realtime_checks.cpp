@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
 constexpr std::uint64_t kGoodPriority = 60;
 
-/// The unit, wherever it is installed: systemd's own order.
+/// The text of the service's unit file. The folders are searched in systemd's order.
 std::optional<std::string> unit_file(const Machine& machine) {
   for (const char* folder : {"/etc/systemd/system/", "/run/systemd/system/", "/usr/lib/systemd/system/",
                              "/lib/systemd/system/", "/usr/local/lib/systemd/system/"}) {
@@ -24,7 +24,7 @@ std::optional<std::string> unit_file(const Machine& machine) {
   return std::nullopt;
 }
 
-/// Whether the installed service sets this limit itself: then those of a login do not matter to it.
+/// True if the installed service sets this limit itself, so that the limits of a login do not apply to it.
 bool set_by_unit(const Machine& machine, const std::string& key) {
   const auto unit = unit_file(machine);
   return unit && ("\n" + *unit).find("\n" + key + "=") != std::string::npos;

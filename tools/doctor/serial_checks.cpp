@@ -12,7 +12,7 @@ namespace {
 constexpr const char* kSerialCheck = "serial";
 constexpr std::int64_t kGoodLatency_ms = 1;
 
-/// The device behind a symbolic link such as /dev/pioneer, as the kernel names it: "/dev/ttyUSB0".
+/// Resolves a symbolic link such as /dev/pioneer to the kernel's name, for example "/dev/ttyUSB0".
 fs::path real_device(const Machine& machine, const std::string& device) {
   std::error_code error;
   const fs::path target = fs::read_symlink(machine.at(device), error);
@@ -20,7 +20,7 @@ fs::path real_device(const Machine& machine, const std::string& device) {
   return target.is_absolute() ? target : (fs::path(device).parent_path() / target).lexically_normal();
 }
 
-/// What udev keeps about a device, by its number: "E:KEY=VALUE" lines.
+/// The udev properties of a device, found by its device number: lines "E:KEY=VALUE".
 std::string udev_properties(const Machine& machine, const std::string& name) {
   const auto number = first_line(machine.at("/sys/class/tty/" + name + "/dev"));
   return number ? file_content(machine.at("/run/udev/data/c" + *number)).value_or("") : "";

@@ -10,16 +10,16 @@
 namespace azimuth {
 namespace {
 
-// How far off robots are that nobody has calibrated: standard deviations, and steps to take at a time.
+// Prior standard deviations for an uncalibrated robot, which also limit the steps of the fit.
 constexpr double kTurn = 0.1, kDrift_rad_per_m = 0.05, kLag_s = 0.2, kYaw_rad = 0.3;
-// A number that is found to no better than half of that was not found.
+// A number is told if its standard deviation is at most this fraction of the prior one.
 constexpr double kTold = 0.5;
-// The camera's heading is wanted to half a degree, two standard deviations.
+// Required accuracy of the camera's yaw: two standard deviations are half a degree.
 constexpr double kToldYaw_rad = 0.25 * kPi / 180.0;
-// Its position is looked for over half a metre, and wanted to five centimetres, two standard deviations: so far beside,
-// a landmark two metres away is seen as wrongly as a good bearing is noisy.
+// Prior standard deviation and required accuracy of the camera's position. Two standard deviations are five
+// centimetres: for a landmark two metres away, such an error equals the noise of a good bearing.
 constexpr double kMount_m = 0.5, kToldMount_m = 0.025;
-// Ten thousand to one.
+// A likelihood ratio of ten thousand to one.
 const double kSure = std::log(1e4);
 constexpr std::size_t kLeastBearings = 30;
 
@@ -37,7 +37,7 @@ FreeErrors free_heading() {
 
 namespace {
 
-/// The two numbers that stand for lag and its growth are then the camera's position.
+/// Priors for MotionNumbers::mount, where the two numbers for lag and its growth are the camera's position.
 FreeErrors free_mount() {
   FreeErrors free = free_heading();
   free.sigma_lag_s = free.sigma_lag_growth = kMount_m;
@@ -48,7 +48,7 @@ double sigma_of(const Eigen::Matrix<double, kCalibrations, kCalibrations>& sprea
   return std::sqrt(std::max(0.0, spread(which, which)));
 }
 
-/// What is not told goes back to what the rig had said.
+/// Resets each untold number to the rig's value and fixes it. Returns true if any number is untold.
 bool hold_what_is_not_told(const OdometryCalibration& found, const Rig& rig, RigGuess& guess, FreeErrors& free) {
   if (!found.turn.told) {
     free.sigma_scale_turn = 0.0;
@@ -65,7 +65,7 @@ bool hold_what_is_not_told(const OdometryCalibration& found, const Rig& rig, Rig
   return !(found.turn.told && found.drift.told && found.lag.told);
 }
 
-/// Of what was free.
+/// Reads the numbers that were free in the fit.
 void read_numbers(const Eigen::Matrix<double, kCalibrations, kCalibrations>& spread, const FreeErrors& free,
                   OdometryCalibration& found) {
   const OdometryRig& odometry = found.solution.guess.rig.odometry;
@@ -81,8 +81,9 @@ void read_numbers(const Eigen::Matrix<double, kCalibrations, kCalibrations>& spr
 
 using Spread = Eigen::Matrix<double, kCalibrations, kCalibrations>;
 
-/// Beside what the parts of the drive show: the noise itself is known to some share only, and large turns may say
-/// something else than all of them, which is what answering errors does to either.
+/// The jackknife covariance of spread_of(), increased for two further uncertainties: the odometry noise is known only
+/// approximately, and the large turns alone may give other numbers than all turns, because the driver's corrections of
+/// heading errors bias the small ones (see motions_between()).
 Spread spread_with_doubts(const Drive& drive, const OdometryCalibration& found, const FreeErrors& free,
                           const HindsightSettings& settings) {
   Spread spread = spread_of(drive, found.solution, free, settings);
@@ -110,7 +111,7 @@ OdometryCalibration calibrate_odometry(const Drive& drive, const Rig& rig, const
   if (numbers_of(rough) != numbers_of(said))
     found.solution = best_of(found.solution, followed_and_solved(drive, said, free, settings, hopeless));
   for (int times = 0; times < 2; ++times) {
-    // What was known beforehand stays what the rig says.
+    // The prior of the noise is the rig's noise in both rounds.
     DriveSolution as_said = found.solution;
     as_said.guess.rig.odometry = with_noise_of(as_said.guess.rig.odometry, rig.odometry);
     found.noise = odometry_noise(drive, as_said, settings);
@@ -130,8 +131,8 @@ OdometryCalibration calibrate_odometry(const Drive& drive, const Rig& rig, const
 
 namespace {
 
-/// Where the camera stands, if the drive tells: not where a lag explains as much, which is a camera ahead of the axle
-/// to a robot that drives straight on at one speed.
+/// Determines the camera's position if the drive tells it. A lag must not explain the drive as well: for a robot that
+/// drives straight at constant speed, a lag and a camera ahead of the axle are equivalent.
 void mount_elsewhere(const Drive& drive, const DriveSolution& start, const HindsightSettings& settings,
                      HeadingCalibration& found, Spread& spread) {
   RigGuess guess = start.guess;
@@ -152,7 +153,7 @@ void mount_elsewhere(const Drive& drive, const DriveSolution& start, const Hinds
 }  // namespace
 
 HeadingCalibration calibrate_heading(const Drive& drive, const Rig& rig, const HindsightSettings& settings) {
-  // Turns that may go any way would make each hand as good as the other.
+  // The scale of turns stays fixed: a free one could become negative, and both hands would fit equally well.
   const FreeErrors yaw_alone{.sigma_camera_yaw_rad = kYaw_rad};
   ShortStretches stretches(drive, rig);
   std::vector<DriveSolution> hands;

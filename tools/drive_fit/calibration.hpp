@@ -1,5 +1,5 @@
 #pragma once
-// What a drive says of its odometry, and of how the camera stands on the robot.
+// Calibrates odometry and the mounting of the camera on the robot from a recorded drive.
 
 #include <optional>
 #include <string>
@@ -11,44 +11,44 @@
 
 namespace azimuth {
 
-/// A number that was looked for.
+/// A calibrated number.
 struct FoundNumber {
   double value = 0.0, sigma = 0.0;
-  bool told = false;  ///< else the drive says no more than what is true of any robot
+  bool told = false;  ///< false if sigma is too large: the drive hardly adds to the prior
 };
 
 struct OdometryCalibration {
   FoundNumber turn, drift, lag;
   OdometryNoise noise;
-  Creep creep;             ///< where the drive has standstills; the rig's floors cover it where it is told
-  DriveSolution solution;  ///< with all of that in its rig
+  Creep creep;             ///< measured at standstills; if it is told, the floors of the rig in `solution` cover it
+  DriveSolution solution;  ///< its rig contains all calibrated values
 };
-/// Begins from `rig`, which may be one that nobody has calibrated.
+/// Calibrates odometry. `rig` is the starting point and may be uncalibrated.
 OdometryCalibration calibrate_odometry(const Drive& drive, const Rig& rig, const HindsightSettings& settings);
 
 struct HeadingCalibration {
-  FoundNumber yaw;  ///< of the camera: robot azimuth = camera azimuth + yaw
-  /// Of the camera's position [m], both or neither: untold, the solution has it where the rig says.
+  FoundNumber yaw;  ///< yaw of the camera: robot azimuth = camera azimuth + yaw
+  /// Position of the camera on the robot [m], forwards and to the left. Either both are told or neither; if untold, the
+  /// solution keeps the rig's position.
   FoundNumber ahead;
   FoundNumber left;
-  bool mirrored = false;  ///< azimuths grow the other way than the rig says
-  bool hand_told = false;
+  bool mirrored = false;   ///< azimuths grow in the opposite direction to the rig's
+  bool hand_told = false;  ///< the drive decides `mirrored` surely
   DriveSolution solution;
 };
 HeadingCalibration calibrate_heading(const Drive& drive, const Rig& rig, const HindsightSettings& settings);
 
-/// What may be otherwise than a rig says that nobody has calibrated: its odometry and the camera's heading, standard
-/// deviations.
+/// Prior standard deviations of the odometry parameters and the camera's yaw for an uncalibrated rig.
 FreeErrors free_heading();
 
-/// Of the bearings of a drive whose rig is right: with fewer that fit, no number of the fit means anything.
+/// Least share of bearings that must fit. With fewer, the fitted numbers mean nothing.
 inline constexpr double kMostMustFit = 0.5;
 
-/// By how much a fit is more likely than another, as ln of the ratio, made smaller by what both leave unexplained: rigs
-/// say too little noise now and then, and errors of bearings come in groups.
+/// ln of the likelihood ratio between two fits of a drive. The ratio is divided by the mean chi squared of the better
+/// fit if that exceeds 1, since some rigs state too little noise and bearing errors are correlated.
 double evidence(const DriveSolution& better, const DriveSolution& than);
 
-/// Why a drive cannot be fitted at all, in a sentence; empty: it can.
+/// A sentence that says why the drive cannot be fitted at all; empty if it can.
 std::string why_cannot_tell(const Drive& drive, const Rig& rig);
 
 }  // namespace azimuth

@@ -12,22 +12,22 @@
 namespace azimuth {
 namespace {
 
-// Slower than this a robot may stand, whatever the odometer says.
+// Below these speeds of odometry the robot may be standing.
 constexpr double kSlow_m_s = 0.05, kSlow_rad_s = 0.05;
 constexpr double kLeastStanding_s = 3.0;
-constexpr double kSettling_s = 0.7;  // after the last motion, and before the next one, clocks may differ
-constexpr double kMostChi2 = 9.0;    // that a squared residual counts for
-constexpr double kStands = 3.0;      // of evidence: else it is left open whether that stretch is one of standing
+constexpr double kSettling_s = 0.7;  // margin at both ends of a stretch, since clocks may differ
+constexpr double kMostChi2 = 9.0;    // upper limit for each squared normalised residual
+constexpr double kStands = 3.0;      // least evidence for a stretch to count as standing
 
 struct Stretch {
-  std::size_t first = 0, end = 0;  // sets
+  std::size_t first = 0, end = 0;  // indices of bearing sets
 };
 
 double span_s(const Drive& drive, const Stretch& stretch) {
   return to_seconds(drive.sets[stretch.end - 1].stamp - drive.sets[stretch.first].stamp);
 }
 
-/// Its ends left out.
+/// The stretch without kSettling_s at either end.
 Stretch settled(const Drive& drive, Stretch stretch) {
   const Stamp from = drive.sets[stretch.first].stamp + duration_from_seconds(kSettling_s),
               to = drive.sets[stretch.end - 1].stamp - duration_from_seconds(kSettling_s);
@@ -62,7 +62,7 @@ std::map<Identity, SmoothedLandmark> landmarks_by_name(const DriveSolution& solu
   return landmarks;
 }
 
-/// Where the robot was at the place that is nearest in time.
+/// The pose at the first place of the solution that is not before `stamp`, or at the last place.
 Pose2 pose_at(const DriveSolution& solution, Stamp stamp) {
   const auto& places = solution.graph.places;
   const auto after = std::ranges::lower_bound(places, stamp, {}, &DriveGraph::Place::stamp);
@@ -70,8 +70,8 @@ Pose2 pose_at(const DriveSolution& solution, Stamp stamp) {
   return solution.graph.values.poses[at].T_map_body;
 }
 
-/// Of a direction seen again and again: how far it is from its mean, if the robot stands and if it goes as odometry
-/// says. Constant errors are in the mean.
+/// Azimuth residuals of one landmark over a stretch, under the hypotheses that the robot stands and that it moves as
+/// odometry says. The later subtraction of the mean removes constant errors.
 struct SeenAgain {
   std::vector<double> standing_rad, going_rad, sigma_rad;
 };
@@ -91,7 +91,7 @@ double centred_chi2(const std::vector<double>& off_rad, const std::vector<double
 }
 
 struct Judged {
-  double standing = 0.0, going = 0.0;  // chi squared
+  double standing = 0.0, going = 0.0;  // chi squared under each hypothesis
   double bearings = 0.0;
 };
 
@@ -126,7 +126,7 @@ Judged judged(const Drive& drive, const Stretch& stretch, const std::vector<Pose
 }
 
 const double kToldBy = std::log(1e4);
-// What comes of a minute of standing: less is not worth a word.
+// Least creep in a minute of standing that matters.
 constexpr double kMinute_s = 60.0, kCrept_rad = 0.025, kCrept_m = 0.1;
 
 }  // namespace

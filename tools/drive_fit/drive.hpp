@@ -1,5 +1,5 @@
 #pragma once
-// A recorded drive as what there is to fit: odometry as it came, and bearings of landmarks that are told apart.
+// A recorded drive as input of a fit: raw odometry, and bearings with data association.
 
 #include <cstddef>
 #include <memory>
@@ -14,19 +14,20 @@ namespace azimuth {
 
 struct Drive {
   std::vector<OdometryReading> odometry;  ///< raw
-  std::vector<BearingSet> sets;           ///< those that had odometry; azimuths in the camera's frame
+  std::vector<BearingSet> sets;           ///< bearing sets covered by odometry; azimuths in the camera's frame
 
-  bool names_are_landmarks = true;  ///< those of a survey; false: names are given here, as things come
+  bool names_are_landmarks = true;  ///< identities are those of a survey; false: given by tracking
 
   std::size_t named_bearings() const;
 };
 
-/// For a drive that is to be heard: live, a bearing cannot wait long for its odometry; of a recording all is there, and
-/// a lag or a slow odometer is what is to be found out.
+/// Stage settings for a recording, in which bearings wait longer for odometry than in live operation. Nothing is lost
+/// by waiting, and the fit has to cope with a lag or with slow odometry.
 StageSettings with_patience(StageSettings stage);
 
-/// Stands where an estimator would, and writes down what reaches it: what the stage took of a run, with the rig's clock
-/// and hand. With a `filter`, bearings are those that it accepts, each under the landmark that it takes it to be of.
+/// Takes the place of the estimator and records the bearing sets that reach it, after the stage has applied the rig's
+/// clock and azimuth direction. If there is a `filter`, the recorded bearings are those that the filter accepts, with
+/// the identity of the landmark to which the filter assigns them.
 ///
 /// Borrows `drive`. Thread contract: thread-bound. Allocates.
 class DriveListener final : public Estimator {

@@ -12,12 +12,12 @@
 namespace azimuth {
 namespace {
 
-constexpr double kLeastFloor = 1e-6;  // what stands between two poses is never exact
+constexpr double kLeastFloor = 1e-6;  // odometry between two poses is never exact
 constexpr double kShortest_s = 1e-3;
 constexpr int kMostIterations = 60, kMostRounds = 8;
-constexpr double kSettledShare = 0.03;  // of a standard deviation: less is not worth another round
-// A landmark that fits nowhere may creep for ever, and the numbers with it, while nothing becomes likelier: so many
-// iterations are to gain more than this in energy, which is a logarithm of likelihood, and a round likewise.
+constexpr double kSettledShare = 0.03;  // a change below this fraction of a standard deviation counts as converged
+// A landmark that fits nowhere may move for ever, and the numbers with it, while the likelihood stays the same. A block
+// of kIterationsAtOnce iterations, and each round, must therefore reduce the energy by kWorthwhile (a log likelihood).
 constexpr int kIterationsAtOnce = 10;
 constexpr double kWorthwhile = 0.1;
 constexpr int kRoundsBeforeCreep = 2;
@@ -39,7 +39,7 @@ KnownNamesSettings names_settings(const RigGuess& guess, const FreeErrors& free,
   settings.smoother = smoother_settings(free, hindsight);
   settings.sigma_bearing_rad = guess.rig.camera.sigma_bearing_rad;
   settings.thinning_s = hindsight.thinning_s;
-  settings.replant_after = hindsight.replant_after;
+  settings.reinitialise_after = hindsight.reinitialise_after;
   settings.floors = {.distance_m = std::max(kLeastFloor, guess.rig.odometry.floor_distance_m),
                      .rotation_rad = std::max(kLeastFloor, guess.rig.odometry.floor_rotation_rad)};
   return settings;
@@ -51,8 +51,7 @@ std::vector<Stamp> stamps_of(const auto& places) {
   return stamps;
 }
 
-/// Landmarks numbered in the order in which they come, those without a bearing left out; `graph` has the numbers of
-/// before.
+/// Renumbers the landmarks in the order of their first bearing and drops landmarks without bearings.
 DriveGraph numbered_anew(DriveGraph graph) {
   std::vector<LandmarkId> now(graph.has_prior.size(), kOfNothing);
   DriveGraph result;
@@ -72,8 +71,8 @@ DriveGraph numbered_anew(DriveGraph graph) {
   return result;
 }
 
-/// A drive that fits nothing may leave landmarks at the robot's own place, where a chart that goes along with its pose
-/// runs away: such are put back onto their first ray, with what is known beforehand.
+/// Resets diverged landmarks to their first ray with the prior inverse depth. A drive that fits nothing may leave a
+/// landmark at the position of the robot, where a chart that moves with its pose diverges.
 void tame(DriveGraph& graph, const RigGuess& guess, const SmootherSettings& settings) {
   std::vector<char> looked_at(graph.has_prior.size());
   for (std::size_t place = 0; place < graph.places.size(); ++place)
@@ -91,7 +90,7 @@ void tame(DriveGraph& graph, const RigGuess& guess, const SmootherSettings& sett
     }
 }
 
-/// Where no bearing fits.
+/// The energy of a drive in which every bearing has the largest possible residual.
 double worst_energy(const DriveGraph& graph, const SmootherSettings& settings) {
   double energy = 0.0;
   for (const DriveGraph::Place& place : graph.places)
@@ -100,7 +99,7 @@ double worst_energy(const DriveGraph& graph, const SmootherSettings& settings) {
   return energy;
 }
 
-/// Follows a drive image by image.
+/// Builds the graph of a drive image by image.
 class Follower {
  public:
   Follower(const RigGuess& guess, const KnownNamesSettings& settings) : guess_(guess), names_(settings) {}
@@ -132,7 +131,7 @@ class Follower {
     in_robot_ = set;
     for (Bearing& bearing : in_robot_.bearings) {
       bearing.azimuth_rad = robot_azimuth(bearing, guess_);
-      bearing.elevation_rad = std::numeric_limits<double>::quiet_NaN();  // it is the plane that is fitted
+      bearing.elevation_rad = std::numeric_limits<double>::quiet_NaN();  // the fit is planar
     }
     if (!names_.update(in_robot_)) return;
     const BearingGraph& solved = names_.smoother().graph();
@@ -157,13 +156,13 @@ class Follower {
   RigGuess guess_;
   KnownNames names_;
   DriveGraph graph_;
-  std::vector<std::vector<BearingId>> ids_{1};  // of what was seen at each place
+  std::vector<std::vector<BearingId>> ids_{1};  // for each place: the ids of its bearings in the smoother's graph
   BearingSet in_robot_;
   Stamp last_{};
   double moving_s_ = 0.0;
 };
 
-/// False: not to its end.
+/// Processes the drive. Returns false if the energy exceeded `hopeless` before the end.
 bool follow(Follower& follower, const Drive& drive, const RigGuess& guess, double hopeless) {
   const auto motions = motions_between(drive.odometry, guess, stamps_of(drive.sets));
   follower.begin(drive.sets.front());
@@ -174,7 +173,7 @@ bool follow(Follower& follower, const Drive& drive, const RigGuess& guess, doubl
   return true;
 }
 
-/// As the graph has it, not solved.
+/// A smoother that starts at the values of `graph`, not optimised.
 Smoother put_together(const Drive& drive, const DriveGraph& graph, const RigGuess& guess, const FreeErrors& free,
                       const HindsightSettings& hindsight) {
   const KnownNamesSettings settings = names_settings(guess, free, hindsight);
@@ -215,9 +214,9 @@ double energy_of_errors(const Smoother& smoother, const FreeErrors& free) {
   return energy;
 }
 
-/// Of landmarks that are behind the bearings they are seen in. To a graph they are as good as others (a camera mounted
-/// backwards fits as well as one that is not), but nothing is seen there: each costs what its bearings hold against the
-/// far end of their rays, and no more than if none of them fitted.
+/// Energy of landmarks that lie behind their bearings (negative inverse distance). The graph accepts them, so that a
+/// camera mounted backwards would fit as well as a correct one. Each such landmark costs the energy of moving it to the
+/// far end of its rays, and at most the energy of its bearings if none of them fitted.
 double energy_of_behind(const BearingGraph& graph) {
   double energy = 0.0;
   for (LandmarkId id = 0; id < graph.landmarks(); ++id) {
@@ -229,7 +228,7 @@ double energy_of_behind(const BearingGraph& graph) {
   return energy;
 }
 
-/// Whether nothing is left to gain.
+/// Optimises. Returns true if the optimisation converged, false if it stopped without progress.
 bool settle(Smoother& smoother) {
   double before = std::numeric_limits<double>::infinity();
   for (int iterations = 0; iterations < kMostIterations; iterations += kIterationsAtOnce) {
@@ -290,7 +289,7 @@ DriveSolution solved(const Drive& drive, DriveGraph graph, RigGuess guess, const
                      const HindsightSettings& settings) {
   DriveSolution solution{.guess = std::move(guess), .graph = std::move(graph)};
   const SmootherSettings smoothing = smoother_settings(free, settings);
-  const int rounds = free == FreeErrors{} ? 1 : kMostRounds;  // nothing to linearise anew
+  const int rounds = free == FreeErrors{} ? 1 : kMostRounds;  // without free numbers nothing is relinearised
   for (int round = 0; round < rounds && !solution.converged; ++round) {
     tame(solution.graph, solution.guess, smoothing);
     Smoother smoother = put_together(drive, solution.graph, solution.guess, free, settings);

@@ -12,8 +12,8 @@
 namespace azimuth {
 namespace {
 
-// Half of what odometry is differentiated over: about the interval between its readings, so that what lies within one
-// does not count as what the robot does.
+// Step of the central differences by lag. It is about the interval between readings, so that interpolation within one
+// interval does not dominate the derivative.
 constexpr double kAround_s = 0.1;
 
 std::vector<OdometryTrack::Step> steps_at(std::span<const OdometryReading> odometry, const OdometryRig& rig,
@@ -33,15 +33,15 @@ OdometryRig later_by(OdometryRig rig, double lag_s) {
   return rig;
 }
 
-/// How the end lies to the start.
+/// The end pose relative to the start pose, as (x, y, heading).
 Eigen::Vector3d seen_from(const Pose2& start, const Pose2& end) { return (inverse(start) * end).vector(); }
 
-/// What is driven straight on is steered: each error of the heading is answered by a little turn the other way, within
-/// the same motion, and to whoever takes turns as given that looks like a scale too small and a lag. So a number is
-/// told by the large changes alone, which somebody wanted: as many as make up this share of the sum of all squares.
+/// A robot that drives straight is steered: each heading error is followed by a small correcting turn. A fit that takes
+/// turns as independent of the errors reads these corrections as a scale below 1 and a lag. Only large, intended
+/// changes therefore determine a number: the largest ones that make up this share of the sum of all squares.
 constexpr double kWanted = 0.9;
 
-/// The least size that is wanted.
+/// The smallest size among the intended changes.
 double least_wanted(std::vector<double> sizes) {
   std::ranges::sort(sizes, std::ranges::greater());
   double all = 0.0, counted = 0.0;
@@ -54,7 +54,7 @@ double least_wanted(std::vector<double> sizes) {
 double turn_by_lag(const DriveMotion& motion) { return std::abs(motion.by_lag(2, 0)); }
 double turn_by_scale(const DriveMotion& motion) { return std::abs(motion.motion.by_scales(2, 1)); }
 
-/// Derivatives of all others are none.
+/// Zeroes the derivatives of all motions below the limit. `of_turns`: also those by the scale of turns.
 void keep_wanted(bool of_turns, std::vector<DriveMotion>& motions) {
   std::vector<double> by_lag, by_scale;
   for (const DriveMotion& motion : motions) {
@@ -68,7 +68,7 @@ void keep_wanted(bool of_turns, std::vector<DriveMotion>& motions) {
   }
 }
 
-/// Of images, without the jump of their clock.
+/// Stamps of images, corrected for the jump of the camera's clock.
 std::vector<Stamp> without_jump(std::span<const Stamp> stamps, const CameraJump& jump) {
   std::vector<Stamp> result(stamps.begin(), stamps.end());
   for (Stamp& stamp : result) stamp = jump.without(stamp);
@@ -86,21 +86,21 @@ Eigen::Vector3d slope(const Eigen::Vector3d& above, const Eigen::Vector3d& below
   return difference / (2.0 * kAround_s);
 }
 
-/// Seconds since the first reading: what a lag that grows is multiplied with.
+/// Seconds since the first reading: the factor of a lag that grows.
 std::vector<double> growing(std::span<const Stamp> stamps, Stamp first) {
   std::vector<double> seconds;
   for (const Stamp stamp : stamps) seconds.push_back(to_seconds(stamp - first));
   return seconds;
 }
 
-/// What a jump is multiplied with: 1 from its instant on.
+/// The factor of a clock jump: 0 before its instant, 1 from then on.
 std::vector<double> jumping(std::span<const Stamp> stamps, const CameraJump& jump) {
   std::vector<double> after;
   for (const Stamp stamp : stamps) after.push_back(stamp >= jump.at ? 1.0 : 0.0);
   return after;
 }
 
-/// `second`: for each of `stamps`, how much of the graph's second number adds to its lag.
+/// `second`: for each stamp, the factor with which the graph's second number adds to the lag.
 std::vector<DriveMotion> motions_with(std::span<const OdometryReading> odometry, const OdometryRig& rig,
                                       std::span<const Stamp> stamps, std::span<const double> second,
                                       bool large_turns_alone) {

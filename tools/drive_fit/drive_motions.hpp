@@ -9,27 +9,28 @@
 
 namespace azimuth {
 
-/// What odometry says of the way between two instants, and what a lag would make of it.
+/// Motion between two instants by odometry, and its derivatives by the two numbers of a lag.
 struct DriveMotion {
   Motion motion;
   ByLag by_lag = ByLag::Zero();
 };
 
-/// One for each of `stamps`, which ascend: from the one before; of the first one, from the first reading. Instants that
-/// no reading covers count as the nearest one covered. `large_turns_alone`: the scale of turns is told by these only,
-/// which nobody made to answer an error (SPEC VI.25); of a lag that is always so.
+/// One motion for each of the ascending `stamps`, from the previous stamp; the first one starts at the first reading.
+/// An instant that no reading covers counts as the nearest covered one. `large_turns_alone`: only large turns determine
+/// the scale of turns, because the robot makes small ones to correct heading errors (mathematics VI.25). A lag is
+/// always determined by large turns alone.
 std::vector<DriveMotion> motions_between(std::span<const OdometryReading> odometry, const OdometryRig& rig,
                                          std::span<const Stamp> stamps, bool large_turns_alone = false);
 
-/// Likewise of the camera, as a guess has it: its mount, the jump of its clock, and in `by_lag` what the guess's
-/// numbers stand for.
+/// Motions of the camera, with the guess's mount and clock jump. The columns of `by_lag` are the derivatives by the two
+/// numbers that guess.numbers selects.
 std::vector<DriveMotion> motions_between(std::span<const OdometryReading> odometry, const RigGuess& guess,
                                          std::span<const Stamp> stamps);
 
-/// Where odometry has the robot at these instants, in a frame of its own.
+/// Dead-reckoning poses of the robot at `stamps`, in the odometry frame.
 std::vector<Pose2> odometry_at(std::span<const OdometryReading> odometry, const OdometryRig& rig,
                                std::span<const Stamp> stamps);
-/// Likewise the camera of a guess, its heading that of the robot.
+/// Dead-reckoning poses of the camera at `stamps`, with the heading of the robot.
 std::vector<Pose2> camera_at(std::span<const OdometryReading> odometry, const RigGuess& guess,
                              std::span<const Stamp> stamps);
 

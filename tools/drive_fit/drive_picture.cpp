@@ -10,7 +10,7 @@
 namespace azimuth {
 namespace {
 
-/// From the first pose of the path on.
+/// Dead reckoning as a line that starts at the first pose of the fitted path.
 PlotLine odometry_line(const Drive& drive, const DriveGraph& graph, const OdometryRig& rig) {
   std::vector<Stamp> stamps;
   for (const DriveGraph::Place& place : graph.places) stamps.push_back(place.stamp);
@@ -21,7 +21,7 @@ PlotLine odometry_line(const Drive& drive, const DriveGraph& graph, const Odomet
   return line;
 }
 
-/// Landmarks that are somewhere, each with the name that its bearings give it.
+/// Adds all landmarks with a known position, each with the identity of its bearings.
 void add_landmarks(const DriveGraph& graph, const Smoother& smoother, MapPicture& picture) {
   std::vector<Identity> names(graph.values.landmarks.size(), kUnknownIdentity);
   for (const DriveGraph::Place& place : graph.places)

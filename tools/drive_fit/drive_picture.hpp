@@ -6,7 +6,7 @@
 
 namespace azimuth {
 
-/// Path and map as they were fitted, beside odometry as `said` has it and as it was found to be.
+/// Picture of the fitted path and map, with dead reckoning by the rig `said` and by the calibrated rig.
 MapPicture drive_picture(const Drive& drive, const DriveSolution& solution, const Rig& said,
                          const HindsightSettings& settings, std::string title, std::string subtitle);
 

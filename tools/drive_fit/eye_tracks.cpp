@@ -17,36 +17,36 @@
 namespace azimuth {
 namespace {
 
-// No robot on wheels with a camera turns faster, and none farther between two images that show the same.
+// Fastest turn of a wheeled robot with a camera, and largest turn between two images with common content.
 constexpr double kMostTurn_rad_per_s = 2.5, kMostTurn_rad = 1.2;
-// How far what is near moves in an image beside the turn that is common to all.
+// Largest azimuth change of a near landmark in addition to the common turn of all bearings.
 constexpr double kParallax_rad = 0.2;
-// By as much as this moves what is 2.5 m away.
+// Largest distance between two images. It shifts a landmark 2.5 m away by kParallax_rad.
 constexpr double kFollowed_m = 0.5;
-// A bearing's share in a turn fades to none over this.
+// A bearing's vote for a turn decreases to zero over this difference.
 constexpr double kOfOneTurn_rad = 0.1;
-// Of two matches the worse one must be so many times as bad, else neither is believed.
+// A rival match must be worse by this factor; otherwise neither match is accepted.
 constexpr double kClearly = 2.0;
-constexpr double kLeastApart_rad = 0.02;  // nearer together is never clear
-// Squared: descriptors' distance to the nearest over that to the next one.
+constexpr double kLeastApart_rad = 0.02;  // a rival nearer than this always makes a match ambiguous
+// Ratio test: largest squared ratio of the nearest descriptor distance to the second nearest.
 constexpr double kMostAlike = 0.7 * 0.7;
 constexpr double kForgotten_s = 1.5;
 constexpr int kMostMissed = 2;
 constexpr std::size_t kLeastSightings = 3;
-// Bearings of an image: as many as a graph of the whole drive is solved with in seconds.
+// Enough bearings per image: with this many, the graph of a whole drive is solved within seconds.
 constexpr std::size_t kEnough = 12;
 
 struct Track {
   Identity name = 0;
   Kind kind = kAnyKind;
   Descriptor looks;
-  double azimuth_rad = 0.0;     // where it would be seen now, had the robot stood
-  double rate_rad_per_s = 0.0;  // beside the common turn
+  double azimuth_rad = 0.0;     // predicted azimuth without the robot's turn since the last image
+  double rate_rad_per_s = 0.0;  // azimuth rate in addition to the common turn
   double since_s = 0.0;
   int missed = 0;
 };
 
-/// What a bearing may be of, and how far off it is then.
+/// A candidate match of a bearing with a track, and its azimuth residual.
 struct Pair {
   std::size_t track = 0, bearing = 0;
   double off_rad = 0.0;
@@ -58,7 +58,7 @@ std::int32_t squared_distance(const Descriptor& a, const Descriptor& b) {
 
 class Eye {
  public:
-  /// After so much driving.
+  /// Names the bearings of the next image. `driven_m`: distance driven since the previous image.
   void look(BearingSet& set, double driven_m) {
     if (driven_m > kFollowed_m) tracks_.clear();
     for (Track& track : tracks_) go_on(track, to_seconds(set.stamp - last_));
@@ -91,7 +91,7 @@ class Eye {
     if (has_looks) keep_alike(set);
   }
 
-  /// Of each bearing the track that looks most like it, if no other one does nearly as much.
+  /// Keeps for each bearing only the track with the nearest descriptor, if it passes the ratio test.
   void keep_alike(const BearingSet& set) {
     std::vector<Pair> alike;
     for (std::size_t first = 0; first < pairs_.size();) {
@@ -112,12 +112,12 @@ class Eye {
     pairs_ = std::move(alike);
   }
 
-  /// By what most bearings have in common: they all turn by the same, whatever the robot is.
+  /// Applies the turn that most bearings agree on: a turn of the robot shifts all azimuths equally.
   void turn_along(double most_rad) {
     double turn_rad = 0.0, most = votes(0.0);
     for (const Pair& pair : pairs_) {
       if (std::abs(pair.off_rad) > most_rad) continue;
-      // Of turns that explain as much the smaller one.
+      // Among turns with equal votes the smallest one wins.
       if (const double told = votes(pair.off_rad) - std::abs(pair.off_rad); told > most) {
         most = told;
         turn_rad = pair.off_rad;
@@ -127,7 +127,7 @@ class Eye {
     for (Pair& pair : pairs_) pair.off_rad = wrap(pair.off_rad - turn_rad);
   }
 
-  /// Each bearing has one.
+  /// Sum of the votes for a turn, at most one per bearing. pairs_ is ordered by bearing.
   double votes(double turn_rad) const {
     double sum = 0.0, best = 0.0;
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
@@ -138,7 +138,7 @@ class Eye {
     return sum;
   }
 
-  /// No other bearing may be of this track as well, and no other track be seen there.
+  /// True if no other bearing fits this track and no other track fits this bearing.
   bool is_clear(const Pair& pair) const {
     const double off_rad = std::abs(pair.off_rad);
     if (off_rad > kParallax_rad) return false;
@@ -164,13 +164,13 @@ class Eye {
   }
 
   std::vector<Track> tracks_;
-  std::vector<Pair> pairs_;  // by bearing
+  std::vector<Pair> pairs_;  // ordered by bearing
   Stamp last_{};
   bool begun_ = false;
   Identity next_ = 0;
 };
 
-using Sightings = std::vector<std::size_t>;  // the images that show a track
+using Sightings = std::vector<std::size_t>;  // indices of the images that show a track
 
 std::map<Identity, Sightings> sightings_of(const std::vector<BearingSet>& sets) {
   std::map<Identity, Sightings> tracks;
@@ -179,7 +179,7 @@ std::map<Identity, Sightings> sightings_of(const std::vector<BearingSet>& sets) 
   return tracks;
 }
 
-/// The longest tracks first, as long as most of their images want more.
+/// Selects tracks, the longest first. A track is kept if at least half of its images have fewer than kEnough kept ones.
 std::set<Identity> worth_keeping(const std::vector<BearingSet>& sets) {
   const std::map<Identity, Sightings> tracks = sightings_of(sets);
   std::vector<Identity> longest;

@@ -1,17 +1,17 @@
 #pragma once
-// Names for what nobody names, that no mistake of a rig can spoil.
+// Data association by image tracking for bearings without identity, independent of mistakes in the rig.
 
 #include "slam/estimator/rig.hpp"
 #include "tools/drive_fit/drive.hpp"
 
 namespace azimuth {
 
-/// Follows what is seen from image to image, by its kind or its looks and by where in the image it goes on: a name
-/// stands on all bearings of one track. What is seen again later gets a new one, and what is seen hardly ever none.
+/// Tracks bearings from image to image by kind or descriptor and by azimuth. All bearings of one track get the same
+/// identity. A landmark that reappears later gets a new identity; bearings of short tracks get none.
 ///
-/// No heading, offset or direction enters: a filter that names landmarks by where the rig has them makes the rig fit by
-/// the names that it gives, whatever is wrong with it (SPEC VI.26). Of the odometry it only counts how far the robot
-/// drove between two images: when that is too far to follow anything, all tracks end.
+/// The tracking uses no heading, offset or direction of the rig. A filter that associates by the rig's geometry would
+/// choose associations that fit even a wrong rig (mathematics VI.26). The tracking takes only the distance between two
+/// images from odometry: all tracks end if the robot drove too far between them.
 void name_by_eye(Drive& drive, const OdometryRig& odometry);
 
 }  // namespace azimuth

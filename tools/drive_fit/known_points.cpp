@@ -13,11 +13,11 @@ namespace {
 
 using Complex = std::complex<double>;
 constexpr std::size_t kLeastPoints = 4, kParts = 10;
-// The residual's mean square must be this much larger with the wrong hand: then it is no matter of chance, whatever the
-// points' errors.
+// The wrong hand must increase the mean square residual by at least this factor. Such an increase is not due to chance,
+// however large the errors of the points are.
 constexpr double kClearlyWorse = 9.0;
 
-/// Of the points but those of one part.
+/// Fit to all points except those of one part.
 struct Fit {
   double scale = 1.0;
   double residual = 0.0, mirrored_residual = 0.0;  // sums of squares

@@ -1,6 +1,6 @@
 #pragma once
-// What was measured otherwise beside a drive: it tells the size of path and map, and which hand they have. Bearings and
-// odometry tell neither.
+// Compares a fitted drive with independent measurements: a true path or surveyed landmarks. They determine the scale of
+// path and map, and whether both are mirrored. Bearings and odometry determine neither.
 
 #include <cstddef>
 #include <optional>
@@ -13,30 +13,30 @@
 namespace azimuth {
 
 struct KnownPoint {
-  Eigen::Vector2d found = Eigen::Vector2d::Zero();  ///< in the solution's frame
+  Eigen::Vector2d found = Eigen::Vector2d::Zero();  ///< position in the solution's frame
   Eigen::Vector2d p_world = Eigen::Vector2d::Zero();
 };
 
-/// Path beside the run's truth.
+/// Points of the fitted path, paired with the run's true path.
 std::vector<KnownPoint> points_on_path(const DriveSolution& solution, std::span<const TruthPose> truth);
-/// Landmarks beside those of the same name that were surveyed.
+/// Landmarks of the map, paired with surveyed landmarks of the same identity.
 std::vector<KnownPoint> points_of_map(const DriveSolution& solution, std::span<const TrueLandmark> landmarks);
 
-/// True lengths over found ones.
+/// Ratio of true lengths to fitted lengths.
 struct LengthScale {
   double scale = 1.0, sigma = 0.0;
 };
 
 struct Likeness {
   LengthScale lengths;
-  bool mirrored = false;   ///< only a mirror brings one onto the other
-  bool hand_told = false;  ///< else points lie too much in a line to tell
+  bool mirrored = false;   ///< the points only match after mirroring
+  bool hand_told = false;  ///< false if the points are too collinear to decide `mirrored`
 };
-/// By the similarity that brings the points closest; sigma by leaving out a tenth of them at a time. Nothing where they
-/// are too few, or one place.
+/// Fits the least-squares similarity between the points. sigma results from a jackknife over ten parts. Nothing if
+/// there are too few points or all coincide.
 std::optional<Likeness> likeness(std::span<const KnownPoint> points);
 
-/// By the distance of two landmarks that was measured. Nothing: one of them has no place in the map.
+/// Scale from the measured distance between two landmarks. Nothing if one of them has no position in the map.
 std::optional<LengthScale> scale_between(const Drive& drive, const DriveSolution& solution,
                                          const HindsightSettings& settings, Identity from, Identity to,
                                          double distance_m);

@@ -13,10 +13,10 @@ namespace azimuth {
 namespace {
 
 constexpr int kNoiseRounds = 12;
-// Beforehand the rig's variances are taken to be right to a factor of three, one standard deviation: what two sorts
-// explain equally well is shared out as the rig has it.
+// Information of the prior on ln(variance). The prior's standard deviation is a factor of three. It keeps the rig's
+// ratio between two kinds of noise that explain the drive equally well.
 const double kKnownBefore = 1.0 / std::pow(std::log(3.0), 2);
-// Where the search begins when the rig says none: what it then finds does not depend on it, unless there is none.
+// Initial values if the rig has zero variance.
 constexpr std::array<double, kNoiseSorts> kFirst{1e-3, 1e-3, 1e-4, 1e-5};
 
 using Variances = std::array<double, kNoiseSorts>;
@@ -34,7 +34,7 @@ Variances variances_of(const OdometryRig& rig) {
           rig.sigma_lateral_m_per_sqrt_m * rig.sigma_lateral_m_per_sqrt_m};
 }
 
-/// Covariance of each motion for one unit of a sort: all are linear in their variances.
+/// Covariance of each motion for a unit value of one variance. Motion covariances are linear in the variances.
 using Unit = std::vector<Eigen::Matrix3d>;
 
 std::array<Unit, kNoiseSorts> units_of(const Drive& drive, const OdometryRig& rig, const std::vector<Stamp>& stamps) {
@@ -48,7 +48,7 @@ std::array<Unit, kNoiseSorts> units_of(const Drive& drive, const OdometryRig& ri
   return units;
 }
 
-/// What bearings leave unknown of the way to a pose from the one before.
+/// Posterior covariance of the motion from the previous pose to pose `end`.
 Eigen::Matrix3d way_covariance(const Smoother& smoother, PoseId end) {
   const BearingGraph& graph = smoother.graph();
   const SeenMotion seen = see_motion(graph.smoothed_pose(end - 1), graph.smoothed_pose(end));
@@ -67,7 +67,7 @@ Eigen::Matrix3d way_covariance(const Smoother& smoother, PoseId end) {
   return J * smoother.covariance(both) * J.transpose();
 }
 
-/// How the drive's likelihood depends on the logarithms of the variances: by these, and its Fisher information.
+/// Gradient of the drive's log likelihood by the logarithms of the variances, and its Fisher information.
 struct Slope {
   Eigen::Vector4d by = Eigen::Vector4d::Zero();
   Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
@@ -104,7 +104,6 @@ void hold(double said, OdometryNoise::Told& noise) {
 
 }  // namespace
 
-/// Steps of scoring, towards what is likeliest with what was known before.
 OdometryNoise odometry_noise(const Drive& drive, const DriveSolution& solution, const HindsightSettings& settings) {
   RigGuess guess = solution.guess;
   DriveGraph graph = solution.graph;

@@ -9,9 +9,9 @@
 namespace azimuth {
 namespace {
 
-constexpr double kNearCentre_px = 2.0;  // nearer pixels say nothing of the azimuth
+constexpr double kNearCentre_px = 2.0;  // pixels nearer to the centre have no meaningful azimuth
 
-/// What stands where a lag and its growth do.
+/// The two numbers in the slots of lag and lag growth.
 Eigen::Vector2d motion_numbers(const RigGuess& guess) {
   const OdometryRig& odometry = guess.rig.odometry;
   switch (guess.numbers) {
@@ -53,7 +53,7 @@ RigGuess moved(const RigGuess& guess, const Calibration& errors) {
   const double longer = 1.0 + errors[calibration::scale_distance], wider = 1.0 + errors[calibration::scale_turn];
   odometry.scale_distance *= longer;
   odometry.scale_turn *= wider;
-  // What was called turn has the drift in it.
+  // The measured turn already contains the drift of the guess.
   odometry.drift_rad_per_m = (odometry.drift_rad_per_m * wider + errors[calibration::drift]) / longer;
   move_motion_numbers(errors.segment<2>(calibration::lag), result);
   result.rig.camera.yaw_offset_rad = wrap(result.rig.camera.yaw_offset_rad + errors[calibration::yaw]);
@@ -101,7 +101,7 @@ Rig rig_saying(const RigGuess& guess, const Rig& said_before) {
     if (guess.mirrored) rig.camera.azimuths_clockwise = !said_before.camera.azimuths_clockwise;
     return rig;
   }
-  // azimuth = direction * angle + offset, and the yaw is that of a mounting that was measured.
+  // azimuth = direction * angle + offset. The yaw offset keeps its value, since it is a measured mounting angle.
   ImageRig& image = rig.camera.image;
   const double by_rad = guess.rig.camera.yaw_offset_rad - said_before.camera.yaw_offset_rad;
   if (guess.mirrored) image.azimuth_direction = -image.azimuth_direction;

@@ -12,12 +12,13 @@
 namespace azimuth {
 namespace {
 
-// A stretch ends here: long enough for the rays of what is near to cross, short enough for odometry.
+// Length and turn at which a stretch ends: long enough for rays to near landmarks to intersect, short enough for
+// odometry to be accurate.
 constexpr double kStretch_m = 4.0, kStretch_rad = kPi;
 constexpr std::size_t kLeastRays = 3;
-// What odometry and bearings together are off by on a stretch: roughly, for a rough search.
+// Approximate combined error of odometry and bearings on a stretch.
 constexpr double kSigma_rad = 0.1;
-constexpr double kTie = 1e-3;  // draws landmarks whose rays hardly cross to where the robot was, per ray
+constexpr double kTie = 1e-3;  // weight per ray that pulls landmarks with nearly parallel rays to the robot's position
 
 constexpr double kYawStep_rad = kPi / 24.0;
 constexpr double kTurnFrom = 0.6, kTurnTo = 1.6, kTurnStep = 0.05;
@@ -87,7 +88,7 @@ std::vector<double> ShortStretches::costs(const RigGuess& guess) {
   return sums;
 }
 
-/// With n across a ray from p, the landmark is where the sum of (n . (l - p))^2 is least.
+/// With n perpendicular to a ray from p, the landmark l minimises the sum of (n . (l - p))^2.
 double ShortStretches::cost_of(const Landmark& landmark, const RigGuess& guess, const std::vector<Pose2>& poses) {
   Eigen::Matrix2d A = Eigen::Matrix2d::Zero();
   Eigen::Vector2d b = Eigen::Vector2d::Zero();
@@ -113,7 +114,7 @@ double ShortStretches::cost_of(const Landmark& landmark, const RigGuess& guess, 
 
 namespace {
 
-/// The cheapest of the guesses that `changed` makes of numbers from `from` to `to`; `guess` itself when none is better.
+/// The guess of least cost among those that `changed` makes from the numbers from `from` to `to`, and `guess` itself.
 template <class Changed>
 RigGuess best_of(ShortStretches& stretches, const RigGuess& guess, double from, double to, double step,
                  const Changed& changed) {

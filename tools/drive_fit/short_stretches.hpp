@@ -1,5 +1,6 @@
 #pragma once
-// Where to begin a fit: a rough guess from short stretches of the drive, on each of which odometry is as good as true.
+// Finds a rough guess as the starting point of a fit. It uses short stretches of the drive, on which odometry is nearly
+// free of error.
 
 #include <optional>
 #include <vector>
@@ -10,29 +11,29 @@
 
 namespace azimuth {
 
-/// Judges guesses by how well the bearings of each landmark meet in a point, stretch by stretch. Whatever is wrong with
-/// the rig, a guess costs the same time, and none is a local minimum.
+/// Rates a guess by how well the bearings of each landmark intersect in one point, stretch by stretch. The computing
+/// time does not depend on the guess, and an exhaustive search over guesses cannot end in a local minimum.
 ///
 /// Borrows the drive. Thread contract: thread-bound.
 class ShortStretches {
  public:
   ShortStretches(const Drive& drive, const Rig& rig);
 
-  /// Mean cost of a bearing: 0 where all meet, kMostCost where none does.
+  /// Mean cost per bearing: 0 if all rays intersect exactly, kMostCost if none do.
   double cost(const RigGuess& guess);
   static constexpr double kMostCost = 4.5;
-  /// Sum of its bearings' costs for each stretch, and where each begins.
+  /// The summed cost of the bearings of each stretch; starts() has the first instant of each stretch.
   std::vector<double> costs(const RigGuess& guess);
   const std::vector<Stamp>& starts() const { return starts_; }
 
-  /// Bearings that can be judged: of landmarks that are seen often enough within a stretch.
+  /// Number of bearings that enter the cost: those of landmarks seen often enough within a stretch.
   std::size_t judged() const { return judged_; }
 
  private:
   struct Ray {
     std::size_t set = 0, bearing = 0;
   };
-  using Landmark = std::vector<Ray>;  // on one stretch
+  using Landmark = std::vector<Ray>;  // the bearings of one landmark on one stretch
 
   void pose_for(const RigGuess& guess);
   void find_landmarks(std::size_t first, std::size_t end);
@@ -41,19 +42,19 @@ class ShortStretches {
   const Drive& drive_;
   std::vector<Stamp> stamps_;
   std::vector<Landmark> landmarks_;
-  std::vector<Stamp> starts_;            // of stretches
-  std::vector<std::size_t> stretch_of_;  // each of landmarks_
+  std::vector<Stamp> starts_;            // first instant of each stretch
+  std::vector<std::size_t> stretch_of_;  // index of the stretch of each element of landmarks_
   std::size_t judged_ = 0;
   std::optional<RigGuess> posed_for_;
   std::vector<Pose2> poses_;
 };
 
-/// What a rough search may change of a guess.
+/// The values of a guess that a rough search may change.
 struct RoughSearch {
   bool hand = false, yaw = false, turn = false, lag = false;
 };
 
-/// The best guess of each hand that is allowed, the better one first.
+/// The best guess for each allowed azimuth direction, the better one first.
 std::vector<RigGuess> rough_guesses(ShortStretches& stretches, const RigGuess& guess, const RoughSearch& search);
 
 }  // namespace azimuth

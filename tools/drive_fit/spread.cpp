@@ -27,7 +27,7 @@ std::vector<std::size_t> ends_of_parts(const DriveGraph& graph) {
 
 namespace {
 
-/// Angles the shorter way round.
+/// Difference of two sets of numbers, with angles wrapped.
 Calibration difference(const Calibration& a, const Calibration& b) {
   Calibration off = a - b;
   off[calibration::yaw] = wrap(off[calibration::yaw]);
@@ -53,7 +53,7 @@ Eigen::Matrix<double, kCalibrations, kCalibrations> spread_of(const Drive& drive
   mean /= parts;
   Calibration variance = Calibration::Zero();
   for (const Calibration& each : off) variance += (each - mean).cwiseAbs2() * (parts - 1.0) / parts;
-  // The larger one, with the graph's correlations.
+  // Each number gets the larger variance; correlations are those of the graph.
   Calibration grown = Calibration::Ones();
   for (Eigen::Index i = 0; i < kCalibrations; ++i)
     if (const double own = solution.covariance(i, i); own > 0.0) grown[i] = std::sqrt(std::max(1.0, variance[i] / own));

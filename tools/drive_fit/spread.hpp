@@ -6,14 +6,14 @@
 
 namespace azimuth {
 
-/// The ends of ten parts with about as many bearings, as numbers of places.
+/// Splits the drive into ten parts with about equally many bearings. Returns the end of each part as a place index.
 std::vector<std::size_t> ends_of_parts(const DriveGraph& graph);
 
-/// How uncertain the numbers of a solution are: covariance of numbers_of(guess).
+/// Covariance of numbers_of(guess) of a solution.
 ///
-/// Two answers, of which each number gets the larger one. The graph's own takes the rig's noise for true, and errors
-/// for independent of each other. The other takes neither: the drive is cut into ten parts of as many bearings, each is
-/// left out in turn, and what that changes tells how far the parts agree (the jackknife over groups; SPEC VI.25).
+/// Each number gets the larger of two variances. The variance of the graph assumes that the rig's noise is correct and
+/// that errors are independent. The second variance assumes neither: it results from a grouped jackknife, which leaves
+/// out each of the ten parts in turn (mathematics VI.25).
 Eigen::Matrix<double, kCalibrations, kCalibrations> spread_of(const Drive& drive, const DriveSolution& solution,
                                                               const FreeErrors& free,
                                                               const HindsightSettings& settings);

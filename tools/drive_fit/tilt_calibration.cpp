@@ -14,13 +14,13 @@
 namespace azimuth {
 namespace {
 
-constexpr double kStep_rad = 0.01;       // for slopes of the energy
-constexpr double kToldTilt_rad = 0.005;  // a standard deviation; more is no better than a spirit level
-constexpr double kSurelyLeans = 18.4;    // squared, in standard deviations: by chance one drive in ten thousand
+constexpr double kStep_rad = 0.01;       // step of the finite differences of the energy
+constexpr double kToldTilt_rad = 0.005;  // largest standard deviation of a told tilt; a spirit level is as accurate
+constexpr double kSurelyLeans = 18.4;    // chi squared with 2 degrees of freedom at a probability of 1e-4
 constexpr double kAnyCentre_px = 10.0;
 constexpr int kNewtonSteps = 3;
 
-/// How likely the drive is by how the camera leans, all else being what then fits best.
+/// Energy of the drive as a function of the camera's tilt, with all other numbers fitted.
 class EnergyOfTilt {
  public:
   EnergyOfTilt(const Drive& drive, const DriveSolution& solution, const CameraModel& camera,
@@ -63,7 +63,7 @@ class EnergyOfTilt {
   FreeErrors free_;
 };
 
-/// By how far parts of the drive agree: each is left out in turn.
+/// Jackknife variance: each part of the drive is left out in turn.
 Eigen::Vector2d variance_by_parts(const EnergyOfTilt& energy, const DriveGraph& graph, const Eigen::Vector2d& found_rad,
                                   const Eigen::LLT<Eigen::Matrix2d>& curvature) {
   std::vector<Eigen::Vector2d> off;
@@ -105,7 +105,7 @@ std::optional<TiltCalibration> calibrate_tilt(const Drive& drive, const DriveSol
     if (curvature.info() != Eigen::Success) return found;
     by_rad -= curvature.solve(energy.slope(solution.graph, by_rad)).cwiseMax(-0.1).cwiseMin(0.1);
   }
-  // The larger of two answers, as spread_of() has it.
+  // The larger of two variances, as in spread_of().
   const Eigen::Vector2d by_parts = variance_by_parts(energy, solution.graph, by_rad, curvature);
   const Eigen::Matrix2d by_graph = curvature.solve(Eigen::Matrix2d::Identity());
   const Eigen::Vector2d variance = by_parts.cwiseMax(by_graph.diagonal());

@@ -1,5 +1,5 @@
 #pragma once
-// What a drive says of how its camera leans.
+// Calibrates the roll and pitch of the camera from a drive.
 
 #include <optional>
 
@@ -9,21 +9,22 @@
 namespace azimuth {
 
 struct TiltCalibration {
-  CameraTilt tilt;           ///< of the camera; the rig's, where `contradicts` is false
-  double sigma_rad = 0.0;    ///< of roll and of pitch, the larger one
-  bool told = false;         ///< else the drive hardly says anything of it
-  bool contradicts = false;  ///< the drive says surely that the rig is wrong
+  CameraTilt tilt;           ///< tilt of the camera; the rig's own value if `contradicts` is false
+  double sigma_rad = 0.0;    ///< the larger standard deviation of roll and pitch
+  bool told = false;         ///< false if sigma_rad is too large
+  bool contradicts = false;  ///< the rig's tilt is surely wrong
 };
 
-/// Of a drive whose azimuths were levelled by the tilt of the rig, from a solution that has the right hand. Azimuths
-/// alone tell it, since a tilt turns them the more the higher or lower things are seen, which the camera's model says
-/// by their radii (SPEC VI.34). Where the image's centre is, and what free_heading() has, is found along with it.
-/// Nothing: azimuths do not come from images, or the model says nothing of elevations.
+/// Preconditions: the azimuths of the drive were levelled with the rig's tilt, and `solution` has the right azimuth
+/// direction. Azimuths alone determine the tilt: the larger the elevation of a landmark, the more a tilt shifts its
+/// azimuth, and the camera model gives the elevation from the radius in the image (mathematics VI.34). The fit also
+/// estimates the image centre and the numbers of free_heading(). Nothing if azimuths do not come from images or the
+/// camera model gives no elevations.
 std::optional<TiltCalibration> calibrate_tilt(const Drive& drive, const DriveSolution& solution,
                                               const HindsightSettings& settings);
 
-/// Where a camera that leans by that much more than its image was levelled by sees what `bearing` is of. Of bearings
-/// without a radius nobody knows.
+/// The bearing as seen by a camera whose tilt exceeds the tilt used for levelling by `by`. A bearing without a radius
+/// stays unchanged.
 Bearing relevelled(const Bearing& bearing, const CameraModel& upright, const CameraTilt& by);
 
 }  // namespace azimuth

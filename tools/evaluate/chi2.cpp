@@ -6,8 +6,8 @@
 namespace azimuth {
 namespace {
 
-/// The regularised incomplete gamma function P(n / 2, x / 2), from P(1/2, y) = erf(sqrt(y)) or P(1, y) = 1 - exp(-y)
-/// by P(a + 1, y) = P(a, y) - y^a exp(-y) / Gamma(a + 1).
+/// The regularised incomplete gamma function P(n / 2, x / 2). The recursion P(a + 1, y) = P(a, y) - y^a exp(-y) /
+/// Gamma(a + 1) starts from P(1/2, y) = erf(sqrt(y)) or P(1, y) = 1 - exp(-y).
 double chi2_probability(double x, std::size_t freedom) {
   const double y = 0.5 * x, end = 0.5 * static_cast<double>(freedom);
   double a = freedom % 2 == 1 ? 0.5 : 1.0;

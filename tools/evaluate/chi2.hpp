@@ -3,8 +3,8 @@
 
 namespace azimuth {
 
-/// The value below which a sum of `freedom` squared standard normal numbers stays with that probability. `freedom` is
-/// at least 1, `probability` in (0, 1). To 1e-9, relative; reentrant.
+/// Quantile of the chi-squared distribution with `freedom` degrees of freedom. `freedom` is at least 1, `probability`
+/// is in (0, 1). The relative error is at most 1e-9. Reentrant.
 double chi2_quantile(double probability, std::size_t freedom);
 
 }  // namespace azimuth

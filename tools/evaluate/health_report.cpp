@@ -12,7 +12,7 @@ struct Span {
   double seconds() const { return to_seconds(last - first); }
 };
 
-/// From the first sample to the last.
+/// The period from the first sample to the last, over steps and odometry.
 Span span_of(std::span<const StepHealth> steps, std::span<const DrivenBy> driven) {
   Span span{steps.front().stamp, steps.back().stamp};
   if (driven.empty()) return span;

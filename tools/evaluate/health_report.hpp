@@ -1,5 +1,5 @@
 #pragma once
-// How far a run could be relied on: its health over time, and what was driven without seeing anything.
+// Reliability of a run: the estimator's health over time, and the distance driven without bearings.
 
 #include <array>
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace azimuth {
 
 inline constexpr std::array kHealths{Health::starting, Health::tracking, Health::degraded, Health::lost};
 
-/// What a step says of itself.
+/// Health that the estimator reports at one step.
 struct StepHealth {
   Stamp stamp{};
   Health health = Health::starting;
@@ -24,40 +24,40 @@ struct StepHealth {
   bool used_bearing = false;
 };
 
-/// How far the odometer had driven by then.
+/// Distance that odometry has driven up to an instant.
 struct DrivenBy {
   Stamp stamp{};
   double path_m = 0.0;
 };
 
-/// Of one health.
+/// Statistics of one health state.
 struct HealthTime {
   double seconds = 0.0;
-  double share = 0.0;                       ///< of the run
-  std::string first_reason;                 ///< of the first of its steps with one
-  double first_reason_at_s = kNotMeasured;  ///< since the start of the run
+  double share = 0.0;                       ///< share of the run's duration
+  std::string first_reason;                 ///< reason of the first step in this state that has a reason
+  double first_reason_at_s = kNotMeasured;  ///< time of that step since the start of the run
 };
 
-/// Driven on odometry alone. A gap is a time without a step that used a bearing, of a second at least and longer than
-/// three times the usual one between steps; starts and ends of runs count.
+/// Driving on odometry alone. A gap is a period in which no step used a bearing. It lasts at least one second and more
+/// than three times the usual interval between steps. Periods at the start and end of the run count.
 struct BlindReport {
-  double driven_m = kNotMeasured;  ///< in all gaps
-  double path_m = kNotMeasured;    ///< of the whole run
+  double driven_m = kNotMeasured;  ///< distance driven in all gaps
+  double path_m = kNotMeasured;    ///< distance driven in the whole run
   std::size_t gaps = 0;
-  double longest_s = kNotMeasured;  ///< from one used bearing to the next, whether a gap or not
+  double longest_s = kNotMeasured;  ///< longest period between two used bearings, whether it is a gap or not
 };
 
 struct HealthReport {
   std::array<HealthTime, kHealths.size()> times;  ///< in the order of kHealths
   std::size_t times_lost = 0;
-  std::size_t times_found = 0;  ///< again, after having been lost
+  std::size_t times_found = 0;  ///< number of successful relocalisations after being lost
   BlindReport blind;
 
   const HealthTime& of(Health health) const { return times[static_cast<std::size_t>(health)]; }
 };
 
-/// A health holds until the next step; before the first one the run is starting. Both are in the order of their stamps.
-/// Without a step: nothing is measured.
+/// A health state lasts until the next step; before the first step it is `starting`. `steps` and `driven` are sorted by
+/// stamp. Without steps, all values are kNotMeasured.
 HealthReport health_report(std::span<const StepHealth> steps, std::span<const DrivenBy> driven);
 
 }  // namespace azimuth

@@ -51,7 +51,7 @@ NamedMapError named_map_error(std::span<const NamedPoint> map, std::span<const N
 SpaceMapError space_map_error(std::span<const NamedPoint> map, std::span<const NamedPoint> world,
                               const Pose2& T_world_map) {
   const std::vector<NamedPoint> estimates = with_heights(map);
-  // True ones without a height are paired with nothing, and count for the size of the map.
+  // True landmarks without a height get no pair, but count for the size of the map.
   const MapPairing pairing = pair_by_place(estimates, world, T_world_map, MapSpace::space);
   SpaceMapError result{.landmarks = estimates.size(),
                        .true_landmarks = with_heights(world).size(),

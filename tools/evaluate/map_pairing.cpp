@@ -22,7 +22,7 @@ double size_of(std::span<const NamedPoint> world) {
   return box.isEmpty() ? kSmallestMap_m : std::max(kSmallestMap_m, box.diagonal().norm());
 }
 
-/// Which landmark may be which true one.
+/// Decides which estimate may belong to which true landmark.
 class Gate {
  public:
   Gate(std::span<const NamedPoint> world, const Pose2& T_world_map, MapSpace space)
@@ -30,7 +30,7 @@ class Gate {
 
   double farthest_m() const { return kFarthestShare * size_m_; }
 
-  /// Infinite: it may not.
+  /// Squared distance of the pair; kForbidden if the pair is outside the gate.
   double squared_error_m2(const NamedPoint& estimate, const NamedPoint& truth) const {
     const Eigen::Vector3d error_m = error(estimate, truth);
     const double squared_m2 = error_m.squaredNorm();
@@ -59,7 +59,8 @@ class Gate {
   double size_m_;
 };
 
-/// By squared errors, row by row of the map; what is left over lies within reach of a true landmark, or does not.
+/// Solves the assignment. `squared_m2` has a row for each estimate. An unpaired estimate is a duplicate if a true
+/// landmark is within reach, otherwise a phantom.
 MapPairing solved(const std::vector<double>& squared_m2, std::size_t rows, std::size_t columns, double alone_m2) {
   MapPairing result;
   if (rows == 0) return result;
@@ -100,7 +101,7 @@ MapPairing pair_by_name(std::span<const NamedPoint> map, std::span<const NamedPo
       squared_m2.push_back(same && std::isfinite(error_m2) ? error_m2 : kForbidden);
       if (squared_m2.back() < kForbidden) largest_m2 = std::max(largest_m2, error_m2);
     }
-  // So much that no error is worth staying alone.
+  // The cost of an unpaired estimate is so high that any pair of equal identity is preferred.
   MapPairing result = solved(squared_m2, map.size(), world.size(),
                              2.0 * largest_m2 * static_cast<double>(std::max<std::size_t>(world.size(), 1)) + 1.0);
   result.phantoms = 0;

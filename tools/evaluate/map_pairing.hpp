@@ -1,5 +1,5 @@
 #pragma once
-// Which landmark of a map is which true one: a map of two landmarks is not right twice because they stand side by side.
+// Assigns estimated landmarks to true ones, one to one.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -13,22 +13,22 @@
 
 namespace azimuth {
 
-/// A landmark and the name that the sensor, or the survey, gives it.
+/// A landmark with the identity from the sensor or from the survey.
 struct NamedPoint {
   Identity identity = kUnknownIdentity;
   Eigen::Vector2d p_m = Eigen::Vector2d::Zero();
-  double z_m = kNotMeasured;  ///< above the floor; none of landmarks in the plane
-  // What is not known of them; nothing of true ones.
+  double z_m = kNotMeasured;  ///< height above the floor; not measured for planar landmarks
+  // Uncertainty of the position; zero for true landmarks.
   Eigen::Matrix2d covariance_m2 = Eigen::Matrix2d::Zero();
   double sigma_z_m = 0.0;
 };
 
-/// The size of a map is the diagonal of the box round the true landmarks, and this at least.
+/// The size of a map is the diagonal of the bounding box of the true landmarks, but at least this.
 inline constexpr double kSmallestMap_m = 5.0;
-/// A landmark maps a true one when it is within three standard deviations of it, where this part of the map's size is
-/// three of what the map as a whole may be bent by, whatever the covariances say,
+/// An estimate may belong to a true landmark within three standard deviations. The variance includes a common
+/// distortion of the map; three of its standard deviations are this fraction of the map's size.
 inline constexpr double kBentShare = 0.02;
-/// and never when it is off by more than this part.
+/// An estimate never belongs to a true landmark farther away than this fraction of the map's size.
 inline constexpr double kFarthestShare = 0.1;
 
 struct MapPair {
@@ -36,21 +36,22 @@ struct MapPair {
   double error_m = 0.0;
 };
 
-/// Every landmark has one true one at most, and every true one has one landmark at most.
+/// A one-to-one assignment: each estimate and each true landmark is in at most one pair.
 struct MapPairing {
-  std::vector<MapPair> pairs;  ///< in the order of the landmarks
-  std::size_t duplicates = 0;  ///< landmarks of a true one that another has
-  std::size_t phantoms = 0;    ///< of none
+  std::vector<MapPair> pairs;  ///< in the order of the estimated landmarks
+  std::size_t duplicates = 0;  ///< unpaired estimates within reach of a true landmark
+  std::size_t phantoms = 0;    ///< unpaired estimates within reach of none
 };
 
 enum class MapSpace : std::uint8_t { plane, space };
 
-/// By place: of all such pairings the one of the least sum of squared errors, where whoever stays alone counts as much
-/// as the farthest pair allowed.
+/// Pairs by position: the assignment with the least sum of squared errors. An unpaired estimate counts with the square
+/// of the largest allowed distance.
 MapPairing pair_by_place(std::span<const NamedPoint> map, std::span<const NamedPoint> world, const Pose2& T_world_map,
                          MapSpace space);
 
-/// By name, at any distance. What has no name of a true landmark is neither duplicate nor phantom.
+/// Pairs by identity, at any distance. An estimate whose identity no true landmark has counts as neither duplicate nor
+/// phantom.
 MapPairing pair_by_name(std::span<const NamedPoint> map, std::span<const NamedPoint> world, const Pose2& T_world_map);
 
 }  // namespace azimuth

@@ -6,7 +6,7 @@
 namespace azimuth {
 namespace {
 
-/// What makes finding bearings in an image quicker.
+/// Advice on how to speed up the front end.
 std::string_view lighter_front_end(std::string_view front_end) {
   if (front_end == "sift") return "a smaller sift.side_px or sift.target_count makes looking at an image quicker";
   return "smaller images make looking at one quicker: choose a smaller size at the camera";

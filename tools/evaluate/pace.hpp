@@ -5,8 +5,8 @@
 
 namespace azimuth {
 
-/// Whether this machine needs longer for a step, on the average, than images take to come: a daemon on it would leave
-/// images out. In a sentence with the key to change; empty: it is quick enough, or nobody knows.
+/// A sentence, with the key to change, if the mean duration of a step exceeds the interval between images, so that a
+/// daemon on this machine would skip images. Empty if the machine is fast enough or if this is unknown.
 std::string why_too_slow(const Report& report);
 
 }  // namespace azimuth

@@ -9,7 +9,7 @@
 namespace azimuth {
 namespace {
 
-/// Judged by the correlations, so that metres and radians need no common scale.
+/// Tests the correlation matrix, so that metres and radians need no common scale.
 bool invertible(const Eigen::Matrix3d& covariance) {
   constexpr double kSmallestVariance = 1e-14, kSmallestEigenvalue = 1e-9;
   if (!covariance.allFinite() || covariance.diagonal().minCoeff() < kSmallestVariance) return false;
@@ -18,7 +18,7 @@ bool invertible(const Eigen::Matrix3d& covariance) {
   return eigenvalues(correlation).minCoeff() > kSmallestEigenvalue;
 }
 
-/// The covariance seen in a frame whose axes are turned by `heading_rad`.
+/// The covariance expressed in a frame whose axes are rotated by `heading_rad`.
 Eigen::Matrix3d in_turned_frame(const Eigen::Matrix3d& covariance, double heading_rad) {
   const double c = std::cos(heading_rad), s = std::sin(heading_rad);
   Eigen::Matrix3d turn;
@@ -73,7 +73,7 @@ std::vector<RelativeError> relative_errors(std::span<const PosePair> pairs, std:
 }
 
 std::optional<TwoSigmaShare> two_sigma_share(const RelativeError& error) {
-  const double kEllipseChi2 = -2.0 * std::log(0.05);  // 95 % of two degrees of freedom
+  const double kEllipseChi2 = -2.0 * std::log(0.05);  // 95 % quantile of chi squared with two degrees of freedom
   const Eigen::Vector2d off = error.error.head<2>();
   const Eigen::Matrix2d P = error.covariance.topLeftCorner<2, 2>();
   const Eigen::LLT<Eigen::Matrix2d> factor(P);

@@ -10,61 +10,61 @@
 
 namespace azimuth {
 
-/// An estimated pose beside the true one of the same instant.
+/// An estimated pose and the true pose at the same instant.
 struct PosePair {
-  std::size_t index = 0;  ///< of the estimate
+  std::size_t index = 0;  ///< index of the estimate
   Pose2 estimated;        ///< in any frame fixed to the ground
   Pose2 T_world_body;
 };
 
-/// Pairs every estimate that has truth at its instant (see pose_at()).
+/// Pairs each estimate with the true pose at its instant. Estimates without truth (see pose_at()) are left out.
 std::vector<PosePair> pair_with_truth(std::span<const StampedPose> estimated, std::span<const StampedPose> truth);
 
-/// The one rigid motion that brings the estimated positions closest to the true ones: T_world_estimated. Nothing
-/// without pairs.
+/// The rigid motion T_world_estimated that minimises the squared distances between estimated and true positions.
+/// Nothing without pairs.
 std::optional<Pose2> alignment(std::span<const PosePair> pairs);
 
-/// Errors after that motion, for each pair in order.
+/// Errors after alignment, for each pair in order.
 struct PoseErrors {
   std::vector<double> position_m;
   std::vector<double> heading_rad;  ///< magnitudes
 };
 PoseErrors pose_errors(std::span<const PosePair> pairs, const Pose2& T_world_estimated);
 
-/// How far a pose is off, beside what its estimate says of that.
+/// Error of a pose and the covariance that the estimate states for it.
 struct RelativeError {
-  std::size_t index = 0;                                 ///< of the estimate
+  std::size_t index = 0;                                 ///< index of the estimate
   Eigen::Vector3d error = Eigen::Vector3d::Zero();       ///< (x [m], y [m], heading [rad])
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of these
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< covariance of `error`
 };
 
-/// Estimate and truth are both taken relative to the first pair, in whose frame errors and covariances are, so no
-/// alignment, which would use the errors to be judged, comes between. One for each pair but the first.
+/// Errors of the poses relative to the first pair, for each pair except the first. Estimate and truth are both
+/// expressed in the frame of the first pair. No alignment is needed, which would depend on the errors themselves.
 std::vector<RelativeError> relative_errors(std::span<const PosePair> pairs, std::span<const EstimateRecord> estimates);
 
-/// How much of what an estimate allows its position's error takes, 1 being the limit.
+/// Position error as a fraction of the limit that the estimate's covariance sets. 1 is the limit.
 struct TwoSigmaShare {
-  /// Against the ellipse that holds 95 % of all errors if the covariance is right.
+  /// Relative to the ellipse that contains 95 % of all errors if the covariance is correct.
   double of_ellipse = 0.0;
-  /// Against two standard deviations in the direction of the error, which is stricter: a round covariance that is right
-  /// keeps 86 % of all errors within these, a flat one 95 %.
+  /// Relative to two standard deviations in the direction of the error. This limit is stricter: if the covariance is
+  /// correct, it contains 86 % of all errors for a circular covariance and 95 % for a very elongated one.
   double of_direction = 0.0;
 };
-/// Nothing where the covariance of (x, y) cannot be inverted.
+/// Nothing if the covariance of (x, y) is singular.
 std::optional<TwoSigmaShare> two_sigma_share(const RelativeError& error);
 
-/// The error squared in its own standard deviations, summed over (x, y, heading): 3 on the average where the estimate's
-/// covariance is honest. Nothing where that, which is of `estimate`, cannot be inverted.
+/// Normalised estimation error squared (NEES) of (x, y, heading). Its mean is 3 if the covariances are correct. Nothing
+/// if the covariance of `estimate` is singular.
 std::optional<double> normalised_squared(const RelativeError& error, const EstimateRecord& estimate);
 
-/// Average normalised estimation error squared of (x, y, heading), 3 when the covariances are honest.
+/// Average normalised estimation error squared (ANEES) of (x, y, heading). It is 3 if the covariances are correct.
 struct Consistency {
   double anees = kNotMeasured;
   std::size_t evaluated = 0;
-  std::size_t singular = 0;  ///< left out: a covariance that cannot be inverted says nothing about its error
+  std::size_t singular = 0;  ///< estimates left out because their covariance is singular
 };
 
-/// Over relative_errors().
+/// Computed from relative_errors().
 Consistency consistency(std::span<const PosePair> pairs, std::span<const EstimateRecord> estimates);
 
 }  // namespace azimuth

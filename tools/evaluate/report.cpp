@@ -11,7 +11,7 @@ std::vector<StampedPose> poses(const std::vector<EstimateRecord>& estimates, Pos
   return result;
 }
 
-/// Raw odometry at the instants of the estimates, so that both are judged over the same moments.
+/// Raw odometry at the instants of the estimates, so that both are evaluated at the same instants.
 std::vector<StampedPose> at_estimates(const ReplayRecord& record) {
   std::vector<StampedPose> result;
   for (const EstimateRecord& estimate : record.estimates)
@@ -33,7 +33,7 @@ AlignedErrors aligned_errors(const std::vector<StampedPose>& trajectory, const s
   return result;
 }
 
-/// The first pair stays, as what the others are relative to.
+/// The first pair is always kept, because consistency() takes the others relative to it.
 void judge_tracking(const ReplayRecord& record, const std::vector<PosePair>& pairs, Report& report) {
   if (record.healths.size() != record.estimates.size() || pairs.empty()) return;
   std::vector<PosePair> tracking{pairs.front()};

@@ -1,6 +1,5 @@
 #pragma once
-// The report of a replay: how good the poses and the map are, and what they cost. Pure: the same input, the same
-// report.
+// The report of a replay: accuracy of the poses and the map, and computing time. The report depends only on the input.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -17,53 +16,53 @@
 
 namespace azimuth {
 
-/// What became of the images.
+/// Numbers of usable and unusable images.
 struct ImagesReport {
-  std::size_t images = 0;  ///< 0: the run brought bearings
+  std::size_t images = 0;  ///< 0 if the run contains bearings instead of images
   std::size_t unreadable = 0;
-  std::size_t of_no_use = 0;  ///< read, but dark, overexposed, covered, frozen or torn
+  std::size_t of_no_use = 0;  ///< readable, but dark, overexposed, covered, frozen or torn
 };
 
 struct AssociationReport {
   std::uint64_t accepted = 0;
   std::uint64_t rejected = 0;
-  std::uint64_t created = 0;  ///< reported as "new"
-  SightingErrors sightings;   ///< of the accepted ones; those judged are none without truth
+  std::uint64_t created = 0;  ///< initialised landmarks, reported as "new"
+  SightingErrors sightings;   ///< wrong associations among the accepted bearings; none are judged without truth
 };
 
 /// Durations in microseconds, one for each step.
 struct StepTimes {
-  // Of the image front end; empty when the run brought bearings.
+  // decode_us and detect_us are times of the image front end. They are empty if the run contains bearings.
   std::vector<double> decode_us;  ///< reading and decoding an image
   std::vector<double> detect_us;  ///< finding bearings in it
   std::vector<double> update_us;  ///< the estimator's update()
   std::vector<double> step_us;    ///< everything from sample to estimate
 };
 
-/// Everything a replay hands over.
+/// The complete output of a replay.
 struct ReplayRecord {
   std::string run;
   std::string estimator;
   std::string front_end;
   std::uint64_t seed = 0;
-  std::string health;  ///< at the end
-  std::string digest;  ///< of all estimates: equal digests, equal bits
+  std::string health;  ///< health at the end
+  std::string digest;  ///< digest of all estimates; equal digests mean bit-identical estimates
 
   std::vector<EstimateRecord> estimates;                      ///< sorted by stamp
-  std::vector<EstimateRecord> past;                           ///< in hindsight, likewise; empty: there is none
-  std::vector<SightingRecord> sightings;                      ///< accepted
-  Eigen::Vector2d p_body_camera_m = Eigen::Vector2d::Zero();  ///< where they were seen from
+  std::vector<EstimateRecord> past;                           ///< smoothed path, sorted by stamp; may be empty
+  std::vector<SightingRecord> sightings;                      ///< accepted bearings
+  Eigen::Vector2d p_body_camera_m = Eigen::Vector2d::Zero();  ///< position of the camera on the robot
   std::vector<NamedPoint> map;                                ///< landmarks at the end, map frame
-  /// Landmarks of `map` that a saved map would keep, being known well enough; nothing: none would be saved.
+  /// Number of landmarks in `map` that are accurate enough for a saved map; nothing if no map would be saved.
   std::optional<std::size_t> settled_landmarks;
-  /// The map is made of whatever there is to see, of which nobody knows the true places: what stands near a true
-  /// landmark is not for that reason its estimate.
+  /// True if the landmarks are natural features, whose true positions are unknown. A feature near a true landmark is
+  /// then not necessarily an estimate of it.
   bool natural_features = false;
-  std::vector<StepHealth> healths;         ///< one for each estimate; empty: they do not say
-  std::string input_trouble;               ///< what kept samples from being of use; empty: nothing
-  std::string incomplete;                  ///< what of the recording could not be read; empty: nothing
-  std::vector<StampedPose> raw_odometry;   ///< as read, uncalibrated; empty: no odometry to judge
-  std::vector<DrivenBy> driven;            ///< at each reading of it
+  std::vector<StepHealth> healths;         ///< one for each estimate; empty if the estimates have no health
+  std::string input_trouble;               ///< reason why samples were unusable; empty if none
+  std::string incomplete;                  ///< unreadable part of the recording; empty if none
+  std::vector<StampedPose> raw_odometry;   ///< uncalibrated readings; empty if odometry is not evaluated
+  std::vector<DrivenBy> driven;            ///< distance driven at each odometry reading
   std::vector<StampedPose> truth;          ///< T_world_body; may be empty
   std::vector<NamedPoint> true_landmarks;  ///< world frame
 
@@ -73,19 +72,19 @@ struct ReplayRecord {
   double peak_memory_mb = kNotMeasured, resident_memory_mb = kNotMeasured;
 };
 
-/// How good the path is as it is known at the end.
+/// Accuracy of the smoothed path that is known at the end.
 struct HindsightReport {
   ErrorStatistics position_m;
   ErrorStatistics heading_rad;
   Consistency consistency;
-  MapError map;  ///< the map at the end, laid over the truth as that path is
+  MapError map;  ///< error of the final map with the alignment of the smoothed path
 };
 
-/// What tells a report from others; nothing of it is measured.
+/// Labels that distinguish a report from others.
 struct ReportLabel {
-  std::string name;  ///< empty: none was given
+  std::string name;  ///< empty if none was given
   std::vector<std::string> tags;
-  std::vector<std::string> overrides;  ///< of settings, `section.key=value`
+  std::vector<std::string> overrides;  ///< overridden settings, `section.key=value`
   std::string made_by;                 ///< program and version
 };
 
@@ -97,27 +96,27 @@ struct Report {
   std::size_t steps = 0;
   HealthReport health_over_time;
 
-  ErrorStatistics position_m;  ///< its count is the number of estimates with truth
+  ErrorStatistics position_m;  ///< `count` is the number of estimates with truth
   ErrorStatistics heading_rad;
   Eigen::Vector3d two_sigma_final{kNotMeasured, kNotMeasured, kNotMeasured};  ///< (x [m], y [m], heading [rad]), map
   Consistency consistency;
-  Consistency tracking_consistency;              ///< of the estimates that said `tracking`
-  std::optional<HindsightReport> hindsight;      ///< nothing: the estimator decides at once and never again
+  Consistency tracking_consistency;              ///< only estimates whose health is `tracking`
+  std::optional<HindsightReport> hindsight;      ///< nothing if the estimator does not revise past poses
   ErrorStatistics odometry_m;                    ///< calibrated odometry alone, with its own alignment
-  ErrorStatistics odometry_raw_m;                ///< as read, with its own alignment
-  std::optional<std::size_t> settled_landmarks;  ///< as in the record
-  bool natural_features = false;                 ///< likewise; then no map is compared with the true landmarks
+  ErrorStatistics odometry_raw_m;                ///< uncalibrated odometry alone, with its own alignment
+  std::optional<std::size_t> settled_landmarks;  ///< see ReplayRecord
+  bool natural_features = false;                 ///< see ReplayRecord; if true, no map errors are computed
   MapError map;
   NamedMapError named_map;
   SpaceMapError space_map;
   AssociationReport association;
   ImagesReport images;
   TimeStatistics decode, detect, update, step;
-  double image_period_us = kNotMeasured;  ///< from one step's image to the next, median
+  double image_period_us = kNotMeasured;  ///< median interval between the images of successive steps
   double peak_memory_mb = kNotMeasured, resident_memory_mb = kNotMeasured;
 
-  std::optional<Pose2> T_world_map;   ///< the alignment; nothing without truth
-  std::optional<Pose2> T_world_odom;  ///< likewise of calibrated odometry
+  std::optional<Pose2> T_world_map;   ///< alignment of the estimates; nothing without truth
+  std::optional<Pose2> T_world_odom;  ///< alignment of calibrated odometry; nothing without truth
 };
 
 Report evaluate(const ReplayRecord& record);

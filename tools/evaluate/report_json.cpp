@@ -8,7 +8,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// JSON knows neither NaN nor infinity.
+/// JSON has neither NaN nor infinity.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json optional_text(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
@@ -35,7 +35,7 @@ Json pose(const Report& report) {
   return json;
 }
 
-/// All null when the sensor gives no names.
+/// All values are null if the sensor gives no identities.
 Json named_map(const NamedMapError& map) {
   const bool measured = map.named > 0;
   return {{"matched", measured ? Json(map.named) : Json(nullptr)},
@@ -45,7 +45,7 @@ Json named_map(const NamedMapError& map) {
           {"duplicates", measured ? Json(map.duplicates) : Json(nullptr)}};
 }
 
-/// All null where the map or the truth has no heights.
+/// All values are null if the map or the truth has no heights.
 Json space_map(const SpaceMapError& map) {
   const bool measured = map.landmarks > 0 && map.true_landmarks > 0;
   return {{"matched", measured ? Json(map.matched) : Json(nullptr)},
@@ -74,7 +74,7 @@ Json map(const Report& report) {
           {"in_space", space_map(report.space_map)}};
 }
 
-/// Null where nothing is decided in hindsight.
+/// Null if the estimator does not revise past poses.
 Json hindsight(const Report& report) {
   if (!report.hindsight) return nullptr;
   const HindsightReport& hindsight = *report.hindsight;
@@ -100,7 +100,7 @@ Json association(const AssociationReport& association) {
           {"judged", sightings.judged}};
 }
 
-/// Null when the run brought bearings.
+/// Null if the run contains bearings instead of images.
 Json images(const ImagesReport& images) {
   if (images.images == 0) return nullptr;
   return {{"images", images.images}, {"unreadable", images.unreadable}, {"of_no_use", images.of_no_use}};
@@ -113,7 +113,7 @@ Json health_time(const HealthTime& time) {
           {"first_reason_at_s", number(time.first_reason_at_s)}};
 }
 
-/// Null without a step that says of its health.
+/// Null if no step has a health.
 Json health_over_time(const HealthReport& report) {
   if (!std::isfinite(report.blind.longest_s)) return nullptr;
   Json json;
@@ -167,7 +167,7 @@ std::string to_json(const Report& report) {
   json["input_trouble"] = optional_text(report.input_trouble);
   json["incomplete"] = optional_text(report.incomplete);
   json["digest"] = optional_text(report.digest);
-  // A run's name is whatever its folder is called, which need not be UTF-8.
+  // The run's name is the name of its folder, which need not be valid UTF-8.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -5,7 +5,7 @@
 
 namespace azimuth {
 
-/// The report as one JSON object, indented, with a newline at its end. Whatever was not measured is null.
+/// The report as one indented JSON object with a final newline. Values that were not measured are null.
 std::string to_json(const Report& report);
 
 }  // namespace azimuth

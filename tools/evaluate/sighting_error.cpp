@@ -12,12 +12,12 @@
 namespace azimuth {
 namespace {
 
-constexpr std::size_t kFewestSightings = 3;  // two rays always meet
-constexpr std::size_t kMostHypotheses = 24;  // sightings of a landmark of which every pair is tried
+constexpr std::size_t kFewestSightings = 3;  // two rays always intersect
+constexpr std::size_t kMostHypotheses = 24;  // number of bearings of a landmark of which every pair is tried
 constexpr double kLeastParallax_rad = 0.05;
 constexpr int kRefinements = 5;
 
-/// A line of sight in the world frame.
+/// A viewing ray in the world frame.
 struct Ray {
   std::int64_t landmark_id;
   Eigen::Vector2d from_m;
@@ -42,7 +42,7 @@ std::vector<Ray> rays_of(std::span<const SightingRecord> sightings, std::span<co
   return rays;
 }
 
-/// Where two rays meet in front of both, under enough parallax to say where.
+/// The intersection of two rays. Nothing if it is behind either ray or if the parallax is too small.
 std::optional<Eigen::Vector2d> meeting(const Ray& a, const Ray& b) {
   const Eigen::Vector2d u(std::cos(a.direction_rad), std::sin(a.direction_rad));
   const Eigen::Vector2d v(std::cos(b.direction_rad), std::sin(b.direction_rad));
@@ -59,7 +59,7 @@ std::size_t agreeing(std::span<const Ray> rays, const Eigen::Vector2d& point_m) 
   return static_cast<std::size_t>(std::ranges::count_if(rays, [&](const Ray& ray) { return ray.points_at(point_m); }));
 }
 
-/// Of all pairs of rays (of a selection, when there are many), the meeting point that most rays point at.
+/// The intersection of two rays that most rays aim at. If there are many rays, only a selection forms pairs.
 std::optional<Eigen::Vector2d> consensus(std::span<const Ray> rays) {
   const std::size_t step = (rays.size() + kMostHypotheses - 1) / kMostHypotheses;
   std::optional<Eigen::Vector2d> best;
@@ -76,7 +76,7 @@ std::optional<Eigen::Vector2d> consensus(std::span<const Ray> rays) {
   return best;
 }
 
-/// Least squares over the rays that point at it.
+/// The least-squares intersection of the rays that aim at `point_m`.
 Eigen::Vector2d refined(std::span<const Ray> rays, Eigen::Vector2d point_m) {
   for (int k = 0; k < kRefinements; ++k) {
     Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
@@ -96,7 +96,7 @@ Eigen::Vector2d refined(std::span<const Ray> rays, Eigen::Vector2d point_m) {
   return point_m;
 }
 
-/// Of one landmark.
+/// Evaluates the rays of one landmark.
 void judge(std::span<const Ray> rays, SightingErrors& errors) {
   if (rays.size() < kFewestSightings) return;
   const auto point = consensus(rays);

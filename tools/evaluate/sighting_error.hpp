@@ -1,6 +1,6 @@
 #pragma once
-// Wrong identities without true ones: what the sightings of one landmark have in common, seen from where the robot
-// really was, is a point; a sighting that does not point at it is of something else.
+// Detects wrong data associations without true identities. From the true poses of the robot, all bearings of one
+// landmark intersect in a point. A bearing that misses this point belongs to another landmark.
 
 #include <cstdint>
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace azimuth {
 
-/// A bearing the estimator took for one of a landmark in its map.
+/// A bearing that the estimator assigned to a landmark of its map.
 struct SightingRecord {
   Stamp stamp{};
   std::int64_t landmark_id = 0;
@@ -18,13 +18,13 @@ struct SightingRecord {
   double sigma_rad = 0.0;
 };
 
-/// Beyond four standard deviations a bearing may be off by this much more: truth is interpolated, and things have a
+/// Tolerance of a bearing in addition to four standard deviations, since truth is interpolated and landmarks have a
 /// size.
 inline constexpr double kSightingTolerance_rad = 0.0087;
 
 struct SightingErrors {
-  std::size_t judged = 0;  ///< of landmarks seen three times at least, under parallax, where there is truth
-  std::size_t wrong = 0;   ///< that do not point at what most sightings of their landmark point at
+  std::size_t judged = 0;  ///< bearings with truth, of landmarks with at least three bearings and enough parallax
+  std::size_t wrong = 0;   ///< judged bearings that miss the point at which most bearings of their landmark aim
 };
 
 SightingErrors sighting_errors(std::span<const SightingRecord> sightings, std::span<const StampedPose> truth,

@@ -7,18 +7,18 @@ namespace azimuth {
 
 inline constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
-/// Of a sequence of error magnitudes. Without any: all kNotMeasured.
+/// Statistics of a sequence of error magnitudes. All values are kNotMeasured if the sequence is empty.
 struct ErrorStatistics {
   std::size_t count = 0;
   double rmse = kNotMeasured;
   double mean = kNotMeasured;
   double max = kNotMeasured;
-  double final = kNotMeasured;  ///< the last one
+  double final = kNotMeasured;  ///< the last error
 };
 
 ErrorStatistics error_statistics(std::span<const double> errors);
 
-/// Of durations in microseconds. Without any: all kNotMeasured.
+/// Statistics of durations in microseconds. All values are kNotMeasured if there are none.
 struct TimeStatistics {
   double median_us = kNotMeasured;
   double p99_us = kNotMeasured;
@@ -26,7 +26,7 @@ struct TimeStatistics {
   double mean_us = kNotMeasured;
 };
 
-/// Percentiles by nearest rank: each is one of the durations.
+/// Percentiles use the nearest-rank method, so each is one of the durations.
 TimeStatistics time_statistics(std::span<const double> durations_us);
 
 }  // namespace azimuth

@@ -10,10 +10,10 @@ namespace azimuth {
 
 struct StampedPose {
   Stamp stamp{};
-  Pose2 pose;  ///< of the body, in a frame that the holder names
+  Pose2 pose;  ///< pose of the body; the holder of the struct states the frame
 };
 
-/// What evaluation needs of one estimate.
+/// The values of one estimate that the evaluation needs.
 struct EstimateRecord {
   Stamp stamp{};
   Pose2 T_map_body;
@@ -21,11 +21,12 @@ struct EstimateRecord {
   Pose2 T_odom_body;                                     ///< calibrated odometry at the same instant
 };
 
-/// Truth with holes in it (the robot out of the cameras' sight) is not bridged by a straight line.
+/// Largest gap in the truth that interpolation bridges. The truth has longer gaps when the robot leaves the view of the
+/// cameras that record it.
 inline constexpr double kMaxTruthGap_s = 1.0;
 
-/// The pose at `stamp`: a sample taken then, or interpolated between its two neighbours if these are at most
-/// `max_gap_s` apart. `trajectory` is sorted by stamp.
+/// The pose at `stamp`: a sample with that stamp, or the interpolation between its two neighbours if they are at most
+/// `max_gap_s` apart. Otherwise nothing. `trajectory` is sorted by stamp.
 std::optional<Pose2> pose_at(std::span<const StampedPose> trajectory, Stamp stamp, double max_gap_s = kMaxTruthGap_s);
 
 }  // namespace azimuth

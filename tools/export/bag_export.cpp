@@ -2,14 +2,14 @@
 
 #include <vector>
 
-#include "ros/serialize.hpp"
+#include "drivers/ros/serialize.hpp"
 #include "tools/bag/bag_writer.hpp"
 #include "tools/export/ros_recording.hpp"
 
 namespace azimuth {
 namespace {
 
-/// One a topic, in the order of the table.
+/// One connection per topic, in the order of kRecordedTopics.
 std::vector<std::uint32_t> connect_all(BagWriter& bag) {
   std::vector<std::uint32_t> connections;
   for (const RecordedTopic& topic : kRecordedTopics) {
@@ -24,7 +24,7 @@ std::vector<std::uint32_t> connect_all(BagWriter& bag) {
 }
 
 BagTime bag_time(Stamp stamp) {
-  const ros::RosTime time = ros::message_time(stamp);  // ROS's own player passes over what is of the instant 0
+  const ros::RosTime time = ros::message_time(stamp);  // the player of ROS skips messages at time 0
   return {static_cast<std::uint32_t>(time.seconds), time.nanoseconds};
 }
 

@@ -3,8 +3,8 @@
 
 namespace azimuth {
 
-/// A bag of ROS 1: see kRecordedTopics. `azimuth import` reads it, as do ROS's own tools. No bag where a stamp is none
-/// of ROS 1's.
+/// A ROS 1 bag with the topics kRecordedTopics. `azimuth import` and the tools of ROS read it. Fails if ROS 1 cannot
+/// represent a stamp.
 Exported bag_bytes(const Estimated& estimated);
 
 }  // namespace azimuth

@@ -5,9 +5,9 @@
 
 namespace azimuth {
 
-/// A table, a line for each pose: time, pose, its covariance, calibrated odometry, health and its reason. Columns have
-/// the names of run folders' tables, so that `azimuth import` reads it; doubles keep every bit; what is not known is
-/// empty, and quotes stand round a reason with a comma in it.
+/// A table with one line per pose: time, pose, covariance, calibrated odometry, health and its reason. Column names are
+/// those of run folders, so that `azimuth import` reads the table. Numbers are written without loss. Unknown values are
+/// empty. A reason that contains a comma is quoted.
 std::string poses_csv(const Estimated& estimated);
 
 }  // namespace azimuth

@@ -1,5 +1,5 @@
 #pragma once
-// What every export is made of.
+// The input of all exports.
 
 #include <Eigen/Core>
 #include <optional>
@@ -14,29 +14,29 @@
 
 namespace azimuth {
 
-/// Where the robot was at an instant. What nobody knows is left out.
+/// The estimate at one instant. Unknown values are empty.
 struct EstimatedPose {
   Stamp stamp{};
   Pose2 T_map_body;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< (x [m], y [m], heading [rad]) in the map frame
   std::optional<Pose2> T_odom_body;                      ///< calibrated odometry at the same instant
   std::optional<Health> health;
-  std::string reason;  ///< of the health; may be empty
+  std::string reason;  ///< reason of the health; may be empty
 };
 
-/// What was estimated of a run, by whoever did.
+/// The estimates of a run, from a replay or a recording.
 struct Estimated {
-  std::string run;                   ///< its name
+  std::string run;                   ///< name of the run
   std::vector<EstimatedPose> poses;  ///< at least one; stamps strictly increase
-  /// Where the robot has been, as it was known at the end; empty: where `poses` say.
+  /// The smoothed path as known at the end; if empty, the path consists of `poses`.
   std::vector<PathPose> path;
-  std::vector<LandmarkEstimate> landmarks;  ///< the map at the end
+  std::vector<LandmarkEstimate> landmarks;  ///< the final map
 };
 
-/// The whole of a file, or one sentence on why there can be none.
+/// The content of a file, or a sentence with the reason why it cannot be made.
 using Exported = tl::expected<std::string, std::string>;
 
-/// The path as it is known at the end.
+/// The smoothed path, or the poses if there is none.
 inline std::vector<PathPose> path_of(const Estimated& estimated) {
   if (!estimated.path.empty()) return estimated.path;
   std::vector<PathPose> path;

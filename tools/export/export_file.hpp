@@ -1,5 +1,5 @@
 #pragma once
-// Which format is asked for, and what is estimated in it.
+// Formats of exports, and export to a given format.
 
 #include <array>
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace azimuth {
 
 enum class ExportFormat : std::uint8_t { tum, kitti, kitti_times, csv, geojson, bag, mcap };
 
-/// As --export takes them. What ends the name of a file, and stands before it where the name ends otherwise.
+/// Format names for the option --export: the file name extension, or a prefix if the extension differs.
 struct ExportFormatName {
   std::string_view name;
   ExportFormat format;
@@ -31,19 +31,20 @@ inline constexpr std::array<ExportFormatName, 7> kExportFormats{{
     {"mcap", ExportFormat::mcap},
 }};
 
-/// A file to be written.
+/// Format and name of a file to write.
 struct ExportRequest {
   ExportFormat format = ExportFormat::tum;
   std::filesystem::path file;
 };
 
-/// "drive.mcap", or "kitti:poses.txt"; nothing when neither says the format.
+/// Parses a text such as "drive.mcap" or "kitti:poses.txt"; nothing if it does not determine the format.
 std::optional<ExportRequest> export_request(const std::string& text);
 
-/// All formats, for a person: "tum, kitti, ... or mcap".
+/// All formats as text for the user: "tum, kitti, ... or mcap".
 std::string export_formats_text();
 
-/// The file's content, or why there can be none. At least one pose there must be. `origin` is for GeoJSON alone.
+/// The content of the file, or the reason for the failure. Precondition: at least one pose. `origin` is only used for
+/// GeoJSON.
 Exported exported(const Estimated& estimated, ExportFormat format, const std::optional<MapOrigin>& origin);
 
 }  // namespace azimuth

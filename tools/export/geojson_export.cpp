@@ -6,12 +6,12 @@
 namespace azimuth {
 namespace {
 
-/// From one end of the longitudes to the other.
+/// True if the segment crosses the antimeridian.
 bool crosses(const GeoJson& before, const GeoJson& after, bool on_the_globe) {
   return on_the_globe && std::abs(after[0].get<double>() - before[0].get<double>()) > 180.0;
 }
 
-/// A line has two places at least: where there is one only, it stands twice.
+/// Completes a line. Since a line needs at least two positions, a single one is duplicated.
 void close_line(GeoJson& lines) {
   GeoJson& line = lines.back();
   if (line.size() == 1) line.push_back(GeoJson(line[0]));

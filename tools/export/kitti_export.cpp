@@ -8,7 +8,7 @@
 namespace azimuth {
 namespace {
 
-/// A T A^-1 with A from the robot's axes to the camera's: x_c = -y_r, y_c = -z_r, z_c = x_r.
+/// A T A^-1, where A converts robot axes to camera axes: x_c = -y_r, y_c = -z_r, z_c = x_r.
 std::array<double, 12> camera_pose(const Pose2& T) {
   const double c = std::cos(T.heading_rad), s = std::sin(T.heading_rad);
   return {c, 0.0, -s, 0.0 - T.y_m, 0.0, 1.0, 0.0, 0.0, s, 0.0, c, T.x_m};
@@ -22,7 +22,7 @@ std::string kitti_text(const Estimated& estimated) {
     char separator = '\0';
     for (const double value : camera_pose(pose.T_map_body)) {
       if (separator != '\0') text += separator;
-      append_double(text, value + 0.0);  // no -0
+      append_double(text, value + 0.0);  // turns -0 into 0
       separator = ' ';
     }
     text += '\n';

@@ -2,15 +2,15 @@
 
 #include <vector>
 
-#include "ros/serialize.hpp"
+#include "drivers/ros/serialize.hpp"
 #include "tools/bag/mcap_writer.hpp"
 #include "tools/export/ros_recording.hpp"
 
 namespace azimuth {
 namespace {
 
-/// One a topic, in the order of the table. The profile wants the key; without a value, players take the usual quality
-/// of service.
+/// One channel per topic, in the order of kRecordedTopics. The profile requires the metadata key for the quality of
+/// service; with an empty value, players use the default.
 std::vector<std::uint16_t> add_channels(McapWriter& mcap) {
   std::vector<std::uint16_t> channels;
   for (const RecordedTopic& topic : kRecordedTopics) {

@@ -3,8 +3,8 @@
 
 namespace azimuth {
 
-/// A file of MCAP with the messages of ROS 2 (profile ros2, CDR, schemas ros2msg): see kRecordedTopics. Foxglove shows
-/// them without any set-up, and `ros2 bag play` plays them. No file where a stamp is none of ROS 2's.
+/// An MCAP file with ROS 2 messages (profile ros2, CDR, schemas ros2msg) on the topics kRecordedTopics. Foxglove shows
+/// it without configuration, and `ros2 bag play` plays it. Fails if ROS 2 cannot represent a stamp.
 Exported mcap_bytes(const Estimated& estimated);
 
 }  // namespace azimuth

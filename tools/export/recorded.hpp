@@ -4,7 +4,7 @@
 
 namespace azimuth {
 
-/// What a daemon estimated, as it published it.
+/// The estimates that a daemon published.
 Estimated estimated_of(const RecordedOutputs& outputs, std::string run);
 
 }  // namespace azimuth

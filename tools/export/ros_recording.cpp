@@ -9,7 +9,7 @@ namespace {
 
 constexpr Duration kDiagnosticsEvery = std::chrono::seconds(1);
 
-/// Sends the health of poses where it is news.
+/// Sends diagnostics at changes of health and at regular intervals.
 class Diagnostics {
  public:
   void look(const EstimatedPose& pose, const UseRecorded& use) {

@@ -1,14 +1,14 @@
 #pragma once
-// What was estimated as a recording of ROS: which message on which topic, and when.
+// Converts estimates to a sequence of ROS messages with topics and times.
 
 #include <array>
 #include <functional>
 #include <string_view>
 #include <variant>
 
-#include "ros/definitions.hpp"
-#include "ros/make_messages.hpp"
-#include "ros/messages.hpp"
+#include "drivers/ros/definitions.hpp"
+#include "drivers/ros/make_messages.hpp"
+#include "drivers/ros/messages.hpp"
 #include "tools/export/estimated.hpp"
 
 namespace azimuth {
@@ -18,7 +18,7 @@ struct RecordedTopic {
   ros::Type type;
 };
 
-/// As a robot with ROS has them. The places in this table are those of RecordedMessage.
+/// Topics with the names that ROS robots commonly use. The order corresponds to the alternatives of RecordedMessage.
 inline constexpr std::array<RecordedTopic, 6> kRecordedTopics{{
     {"/azimuth/pose", ros::Type::pose},
     {"/odom", ros::Type::odometry},
@@ -33,12 +33,12 @@ using RecordedMessage = std::variant<ros::PoseWithCovarianceStamped, ros::Odomet
 
 using UseRecorded = std::function<void(Stamp stamp, const RecordedMessage& message)>;
 
-/// Calls `use` for each message, in the order of their times. Path and map, which are those known at the end, come with
-/// the first pose, so that a viewer shows them from there on. Odometry and frames are left out where nobody knows
-/// odometry, and diagnostics where nobody knows the health; those come when the health changes, and once a second.
+/// Calls `use` for each message in order of time. Path and map are those known at the end; they come with the first
+/// pose, so that viewers show them from the start. Odometry and transforms are omitted if odometry is unknown.
+/// Diagnostics are omitted if the health is unknown; otherwise they come at each change of health and once per second.
 void record_for_ros(const Estimated& estimated, const UseRecorded& use);
 
-/// The first and last time of its messages.
+/// The times of the first and last message.
 struct RecordedSpan {
   Stamp first{}, last{};
 };

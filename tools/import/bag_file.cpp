@@ -51,20 +51,20 @@ std::string beyond_budget(std::size_t file_B, bool is_mcap) {
          (is_mcap ? "mcap compress --compression none" : "rosbag decompress");
 }
 
-/// Of a file that begins as no bag does.
+/// Error text for a file that does not begin like a bag.
 std::string what_instead(Bytes bytes) {
   const std::string_view packed = packed_as(bytes);
   return packed.empty() ? "is not a bag: it begins neither as those of ROS 1 nor as MCAP nor as a database of ROS 2"
                         : std::string(packed);
 }
 
-/// How many messages of a connection there are, and when.
+/// Number and period of the messages of a connection.
 struct Tally {
   std::uint64_t messages = 0;
   Stamp first{}, last{};
 };
 
-/// Into a topic or a sender.
+/// Adds a tally to a topic or a sender.
 template <class Total>
 void add(Total& total, const Tally& tally) {
   if (total.messages == 0) std::tie(total.first, total.last) = std::tie(tally.first, tally.last);
@@ -84,14 +84,14 @@ void add(std::vector<BagTopic>& topics, const BagConnection& connection, const T
   add(*sender, tally);
 }
 
-/// Unpacks messages that were packed one by one. Of all messages of a file it gives no more than most_unpacked().
+/// Unpacks individually compressed messages, up to most_unpacked() bytes for all messages of a file.
 class MessageUnpacker {
  public:
   explicit MessageUnpacker(std::uint64_t file_bytes) : left_(most_unpacked(file_bytes)) {}
 
-  /// What is in a message; nothing where that cannot be had.
+  /// The content of a message; empty if it cannot be unpacked.
   Bytes operator()(const BagConnection& connection, Bytes message) {
-    // In CDR nothing begins like that.
+    // No CDR message begins with the Zstandard magic number.
     if (connection.version != RosVersion::two || !as_text(message).starts_with(kZstdMagic)) return message;
     const bool is_whole = unpack_message(message, left_, unpacked_);
     left_ -= std::min<std::uint64_t>(left_, unpacked_.size());

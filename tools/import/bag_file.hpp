@@ -1,5 +1,5 @@
 #pragma once
-// Bags of ROS as files: those of ROS 1, MCAP, and those of ROS 2 in SQLite; in one file or in parts.
+// ROS bag files: ROS 1, MCAP, and ROS 2 in SQLite. A bag consists of one file or of several parts.
 
 #include <cstdint>
 #include <filesystem>
@@ -16,57 +16,57 @@
 
 namespace azimuth {
 
-/// Who sent messages on a topic: a node of ROS 1, a channel of MCAP.
+/// A sender of messages on a topic: a node in ROS 1, a channel in MCAP.
 struct BagSender {
   std::string name;
   std::uint64_t messages = 0;
-  Stamp first{}, last{};  ///< when they were recorded
+  Stamp first{}, last{};  ///< recording times
 };
 
-/// The messages of one type on one topic, whoever sent them.
+/// The messages of one type on one topic, from all senders.
 struct BagTopic {
   std::string name;
-  std::string type;       ///< sensor_msgs/Image
-  SharedText definition;  ///< what it is made of, for RosDefinition
-  std::string checksum;   ///< of the definition
+  std::string type;       ///< for example sensor_msgs/Image
+  SharedText definition;  ///< message definition, for RosDefinition
+  std::string checksum;   ///< checksum of the definition
   RosVersion version = RosVersion::one;
   std::uint64_t messages = 0;
-  Stamp first{}, last{};  ///< when they were recorded
+  Stamp first{}, last{};  ///< recording times
   std::vector<BagSender> senders = {};
-  std::string sender = {};  ///< the one whose messages are meant; empty: all
-  std::string frame = {};   ///< likewise, of the frame in the messages: read_bag_samples() looks at it
+  std::string sender = {};  ///< if not empty, only messages of this sender are used
+  std::string frame = {};   ///< if not empty, read_bag_samples() uses only messages with this frame
 };
 
-/// Whether a file begins as a bag does, or has the name of one.
+/// True if a file has the first bytes or the name of a bag.
 bool is_bag(const std::filesystem::path& file);
 
-/// The bag in a folder, its parts in their order: what metadata.yaml of ROS 2 names, else the files that differ by
-/// their last number alone (drive_0.bag, drive_1.bag). Errors: it holds none, several, or not all parts.
+/// The parts, in order, of the bag in a folder. The parts are the files named in metadata.yaml (ROS 2), otherwise the
+/// files whose names differ only by the last number (drive_0.bag, drive_1.bag). Fails if the folder contains no bag,
+/// several bags, or not all parts of a bag.
 FileResult<std::vector<std::filesystem::path>> bag_in_folder(const std::filesystem::path& folder);
 
-/// How many parts of one recording lie beside a file that is one of them; 1: it is alone.
+/// Number of parts of the recording to which the file belongs; 1 if it is the only one.
 std::size_t parts_beside(const std::filesystem::path& file);
 
-/// One bag, its files mapped into memory. Thread contract: thread-bound.
+/// A bag whose files are mapped into memory. Thread contract: thread-bound.
 class BagFile {
  public:
-  /// Reads all of it once. Refuses what is no bag of ROS 1's format 2.0, no MCAP and no database of ROS 2, one that is
-  /// encrypted, and one that unpacks to more than an UnpackBudget allows. A recording that was never closed, is cut or
-  /// damaged is read as far as it goes. `progress` is told of each time that it is gone through, and ends that by
-  /// throwing.
+  /// Reads the whole bag once. Accepts ROS 1 bags (format 2.0), MCAP, and ROS 2 databases. Rejects encrypted bags and
+  /// bags that unpack to more than an UnpackBudget allows. An unclosed, truncated or damaged recording is read as far
+  /// as possible. `progress` is called during each pass through the bag and may throw to end it.
   static FileResult<BagFile> open(const std::vector<std::filesystem::path>& parts, BagProgress progress = {});
   static FileResult<BagFile> open(const std::filesystem::path& file) { return open(std::vector{file}); }
 
-  /// In the order of their names; those with messages only.
+  /// Topics that have messages, sorted by name.
   const std::vector<BagTopic>& topics() const { return topics_; }
 
-  /// What is wrong with it, for a person: "4096 damaged bytes, 1 damaged chunk"; empty: nothing.
+  /// Damage of the bag as text for the user, for example "4096 damaged bytes, 1 damaged chunk"; empty if there is none.
   const std::string& damage() const { return damage_; }
 
   using Use = std::function<void(const Arrival& arrival, Bytes message)>;
-  /// Calls `use` for each message of `topic`, in the order in which they lie; the bytes are valid until it returns. Of
-  /// messages that are compressed one by one what is in them; nothing where that is damaged, or too much for a file of
-  /// its size.
+  /// Calls `use` for each message of `topic`, in file order. The bytes are valid until `use` returns. Individually
+  /// compressed messages are unpacked. The bytes are empty if a compressed message is damaged or unpacks to too much
+  /// for the size of the file.
   void each(const BagTopic& topic, const Use& use) const;
 
  private:

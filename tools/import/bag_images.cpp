@@ -13,7 +13,7 @@ namespace azimuth {
 namespace {
 
 FileResult<FrameFile> write_image(const std::filesystem::path& out, const std::string& name, Stamp stamp, Bytes bytes) {
-  std::error_code ignored;  // what stood there may be a link to somebody's only copy
+  std::error_code ignored;  // an existing file may be a link to the only copy of other data
   std::filesystem::remove(out / name, ignored);
   if (auto written = write_text_file(out / name, as_text(bytes)); !written) return failure(written.error());
   return FrameFile{stamp, name};
@@ -45,7 +45,7 @@ LogImages::~LogImages() {
 
 FileResult<FrameFile> LogImages::keep(std::size_t number, Stamp stamp, const ImageView& image) {
   ImageView kept = image;
-  PngDecoder png;  // messages have no format for PNG
+  PngDecoder png;  // PixelFormat has no value for PNG
   if (image.format.pixels == PixelFormat::mjpeg && is_png(image.bytes)) {
     const std::optional<PngHeader> header = png.read_header(image.bytes);
     kept = header ? png.decode(image.bytes, header->natural_format()) : ImageView{};

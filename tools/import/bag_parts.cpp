@@ -1,4 +1,4 @@
-// Which files make up one bag.
+// Determines which files make up one bag.
 
 #include <algorithm>
 #include <array>
@@ -20,15 +20,15 @@ namespace fs = std::filesystem;
 
 constexpr const char* kMetadata = "metadata.yaml";
 
-/// drive_2020-01-31_7.bag as a part: number 7 of what has the same name but for digits.
+/// Name of a part. For example, drive_2020-01-31_7.bag is part 7 of the files whose names differ only in digits.
 struct PartName {
-  std::string alike;  ///< the name with # for each number: parts were begun at times of their own
+  std::string alike;  ///< the name with # for each number, since names of parts may contain different times
   std::optional<std::int64_t> number;
 };
 
 PartName part_name(const fs::path& file) {
   const std::string name = file.filename().string();
-  const fs::path short_name = file.stem();  // of drive_0.db3.zstd still with .db3
+  const fs::path short_name = file.stem();  // keeps .db3 of drive_0.db3.zstd
   const std::string stem = (short_name.has_extension() ? short_name.stem() : short_name).string();
   PartName part;
   if (const std::size_t last = stem.rfind('_'); last != std::string::npos)
@@ -37,7 +37,7 @@ PartName part_name(const fs::path& file) {
     const bool is_digit = std::isdigit(static_cast<unsigned char>(each)) != 0;
     if (!is_digit || !part.alike.ends_with('#')) part.alike += is_digit ? '#' : each;
   }
-  if (!part.number) part.alike = name;  // else digits are a part of the name
+  if (!part.number) part.alike = name;  // without a part number, digits belong to the name
   return part;
 }
 
@@ -56,7 +56,7 @@ std::vector<fs::path> bags_in(const fs::path& folder) {
   return found;
 }
 
-/// The names below relative_file_paths, without folders before them.
+/// The names in relative_file_paths, without folders.
 std::vector<std::string> names_in_metadata(const fs::path& folder) {
   std::vector<std::string> names;
   const FileResult<MappedFile> file = MappedFile::open(folder / kMetadata);

@@ -19,12 +19,12 @@ std::string not_one(const BagTopic& topic, const std::string& why) {
   return "not one message on " + topic.name + " can be used" + (why.empty() ? "" : ": " + why);
 }
 
-/// The frames that the messages of one topic name: several by turns are of several robots, or of several estimates.
+/// Counts the frames in the messages of one topic. Alternating frames mean several robots or several estimates.
 class FrameTally {
  public:
   explicit FrameTally(std::string wish) : wish_(std::move(wish)) {}
 
-  /// Whether a message is of the frame that is meant, or none is.
+  /// True if the message has the requested frame, or if no frame is requested.
   bool take(const RosMessage& message) {
     const std::string frames = frames_of(message);
     ++counts_[frames];
@@ -32,7 +32,7 @@ class FrameTally {
     last_ = frames;
     return wish_.empty() || frames == wish_ || frames.ends_with("-> " + wish_) || frames.starts_with(wish_ + " ->");
   }
-  /// A sender that was started anew may name another frame once.
+  /// Few changes do not count as mixed, since a restarted sender may use another frame.
   bool are_mixed() const { return wish_.empty() && counts_.size() > 1 && changes_ > 2 * counts_.size(); }
   std::string text() const {
     std::string words;
@@ -48,14 +48,14 @@ class FrameTally {
   std::size_t changes_ = 0;
 };
 
-/// A message among those of its topic.
+/// Stamp and arrival of a message.
 struct Came {
   Stamp stamp{};
   Arrival arrival;
 };
 
-/// Calls `use(came, message)` for each whole message of a topic that is of the frame that is meant; how many are not
-/// whole. Errors: its definition cannot be understood, or frames are mixed.
+/// Calls `use(came, message)` for each complete message of a topic with the requested frame. Returns the number of
+/// incomplete messages. Fails if the message definition is not understood or if frames are mixed.
 template <class Use>
 FileResult<std::uint64_t> each_message(const BagFile& bag, const std::string& file, const BagTopic& topic, Use use) {
   std::optional<RosDefinition> definition = RosDefinition::parse(topic.definition, topic.type, topic.version);
@@ -64,7 +64,7 @@ FileResult<std::uint64_t> each_message(const BagFile& bag, const std::string& fi
         file, 0, "the definition of " + topic.type + " that it carries for " + topic.name + " makes no sense"});
   RosMessage message(*std::move(definition));
   FrameTally frames(topic.frame);
-  const bool may_be_mixed = topic.type == "sensor_msgs/JointState";  // which are told apart by their names
+  const bool may_be_mixed = topic.type == "sensor_msgs/JointState";  // joints are distinguished by name
   std::uint64_t cut = 0, used = 0;
   bag.each(topic, [&](const Arrival& arrival, Bytes bytes) {
     if (!message.read(bytes)) return void(++cut);
@@ -86,10 +86,11 @@ FileResult<std::uint64_t> each_message(const BagFile& bag, const std::string& fi
 struct Poses {
   std::vector<std::pair<Came, Pose2>> poses;
   std::uint64_t unsound = 0;
-  std::string why;  ///< of the last unsound one, in words; empty: nobody knows
+  std::string why;  ///< reason for the last unsound message; empty if unknown
 };
 
-/// The poses of a topic; `pose(message, stamp)` is nothing for what is unsound, and says why in `why`.
+/// The poses of a topic. `pose(message, stamp, why)` returns nothing for an unsound message and writes the reason to
+/// `why`.
 template <class PoseOf>
 FileResult<Poses> read_poses(const BagFile& bag, const std::string& file, const BagTopic& topic, PoseOf pose) {
   Poses read;
@@ -114,7 +115,7 @@ std::optional<Pose2> pose_in(const RosMessage& message, Stamp, std::string& why)
   return pose;
 }
 
-/// What the wheels have rolled, kept as it is, and the poses that this makes as long as no counter wraps.
+/// Stores the distances that the wheels have rolled, and computes poses that are valid as long as no counter wraps.
 class JointPath {
  public:
   JointPath(const BagWheels& wheels, std::vector<WheelReading>& rolled)
@@ -139,7 +140,7 @@ class JointPath {
   WheelPath path_;
 };
 
-/// Poses from speeds, each of which holds from the message before on.
+/// Integrates speeds to poses. Each speed applies to the interval since the previous message.
 class TwistPath {
  public:
   std::optional<Pose2> operator()(const RosMessage& message, Stamp stamp, std::string& why) {
@@ -159,7 +160,7 @@ class TwistPath {
   bool moves_ = false;
 };
 
-/// Of odometry whose orientation is unset: by its speeds, unless these are unset as well.
+/// Poses for odometry without orientation, computed from its speeds, unless these are unset as well.
 FileResult<Poses> by_speeds(const BagFile& bag, const std::string& file, const BagTopic& topic, BagRun& read) {
   TwistPath path;
   FileResult<Poses> poses =
@@ -189,7 +190,7 @@ FileResult<Poses> odometry_poses(const BagFile& bag, const std::string& file, co
   return by_speeds(bag, file, topic, read);
 }
 
-/// That of wheels, by the stamps that it has by now.
+/// Odometry from the wheels, with the corrected stamps.
 FileResult<std::vector<OdometryReading>> rolled_odometry(const BagRun& read, const std::string& file,
                                                          std::vector<std::string>& notes) {
   std::vector<WheelReading> rolled;

@@ -1,5 +1,5 @@
 #pragma once
-// A run from the topics of a bag. What a robot recorded is used as far as it goes, and what is skipped is counted.
+// Makes a run from the topics of a bag. Unusable messages are skipped and counted.
 //
 // Thread contract: reentrant.
 
@@ -17,43 +17,45 @@
 
 namespace azimuth {
 
-/// Which joints are the wheels, and how they turn into a pose.
+/// The wheel joints and their dimensions.
 struct BagWheels {
   Wheels wheels;
-  std::string left, right;  ///< names; empty: the joints with left and right in their names
+  std::string left, right;  ///< joint names; empty: the joints whose names contain left and right
 };
 
-/// A run on its way out of a bag.
+/// Intermediate result of the import of a bag.
 struct BagRun {
   Run run;
-  std::vector<Arrival> odometry, truth, frames;  ///< how each came
-  /// What the wheels had rolled at each reading of the run's odometry, whose `sequence` counts them. Empty: the bag has
-  /// poses.
+  std::vector<Arrival> odometry, truth, frames;  ///< arrival of each sample of the run
+  /// Distances that the wheels have rolled at the odometry readings; OdometryReading::sequence is the index. Empty if
+  /// the bag contains poses.
   std::vector<WheelReading> rolled;
-  Wheels wheels;                   ///< of these
-  std::vector<std::string> notes;  ///< what was done otherwise than the bag says, for a person
+  Wheels wheels;                   ///< dimensions of the wheels of `rolled`
+  std::vector<std::string> notes;  ///< deviations from the content of the bag, as text for the user
 };
 
-/// Odometry and truth of a run, in the order in which they lie. Stamps are those of the messages' headers; where nobody
-/// set them, when they were recorded. Odometry whose orientation was never set is made from its speeds. Errors: not one
-/// message can be used, or several robots or frames are mixed.
+/// Reads odometry and truth of a run, in file order. Stamps are those of the message headers; if a header has none, the
+/// recording time is used. If the orientation of odometry was never set, odometry is computed from its speeds. Fails if
+/// no message is usable, or if several robots or frames are mixed.
 FileResult<void> read_bag_samples(const BagFile& bag, const std::string& file, const BagChoice& choice,
                                   const BagWheels& wheels, BagRun& read);
 
-/// The run of all that was read, its stamps in order: moved on where a clock was set, wheels that wrap unwrapped, and
-/// an odometer that began anew bridged, which `notes` say after those of `read`. Errors: those of wheel_odometry().
+/// Completes the run. Stamps are put in order and corrected where a clock was set; wheel counters are unwrapped;
+/// restarts of the odometer are bridged. `notes` gets the notes of `read` and a note for each correction. Fails if
+/// wheel_odometry() fails.
 FileResult<Run> finish_bag_run(BagRun read, const std::string& file, std::vector<std::string>& notes);
 
-/// Takes the images of a bag, one by one.
+/// Stores the images of a bag one by one.
 class BagImages {
  public:
   virtual ~BagImages() = default;
-  /// Gives it a place; what stands in the way.
+  /// Stores an image.
   virtual FileResult<FrameFile> keep(std::size_t number, Stamp stamp, const ImageView& image) = 0;
 };
 
-/// Files of a run folder `out`: JPEG and PNG as they come, grey and colour as PNG. Refuses Bayer patterns and YUV,
-/// which PNG cannot hold without loss. They are put into `files`, by default `out` itself.
+/// Stores images as files of the run folder `out`. JPEG and PNG are copied; grey and colour images become PNG. Bayer
+/// patterns and YUV are rejected, since PNG cannot hold them without loss. The files are written to `files`, by default
+/// `out` itself.
 class FolderImages : public BagImages {
  public:
   explicit FolderImages(const std::filesystem::path& out) : FolderImages(out, out) {}
@@ -65,7 +67,8 @@ class FolderImages : public BagImages {
   std::filesystem::path out_, files_;
 };
 
-/// Parts of a file beside `log`, from which write_run_log() fetches them; it is deleted at the end.
+/// Stores images in a temporary file beside `log`, from which write_run_log() reads them. The destructor deletes the
+/// file.
 class LogImages : public BagImages {
  public:
   explicit LogImages(const std::filesystem::path& log);
@@ -79,8 +82,8 @@ class LogImages : public BagImages {
   std::uint64_t size_ = 0;
 };
 
-/// The images of a run, through `images`; what cannot be read is counted. Errors: of what keeps them, or not one can be
-/// read.
+/// Reads the images of a run and stores them with `images`. Unreadable images are counted. Fails if an image cannot be
+/// stored or if no image is readable.
 FileResult<void> read_bag_images(const BagFile& bag, const std::string& file, const BagTopic& topic, BagImages& images,
                                  BagRun& read);
 

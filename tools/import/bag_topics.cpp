@@ -23,7 +23,7 @@ bool are_poses(const BagTopic& topic) {
 
 using Fits = std::function<bool(const BagTopic&)>;
 
-/// Chooses among the topics of one bag, and gathers what is wrong.
+/// Chooses among the topics of one bag and collects errors.
 struct Chooser {
   const std::string& file;
   const std::vector<BagTopic>& topics;
@@ -47,7 +47,7 @@ struct Chooser {
     return std::nullopt;
   }
 
-  /// The only one; nothing when there is none, or when there are several, which is wrong.
+  /// The only suitable topic. Nothing if there is none, or, with an error, if there are several.
   std::optional<BagTopic> only(const Fits& fits, const char* what, const char* option) {
     std::vector<const BagTopic*> found;
     for (const BagTopic& topic : topics)
@@ -60,7 +60,7 @@ struct Chooser {
   }
 };
 
-/// Whether two of them send at the same time: who is started anew takes another name, or channel, without that.
+/// True if two senders send at the same time. A restarted sender may get another name or channel, but does not overlap.
 bool are_mixed(std::vector<BagSender> senders) {
   constexpr Duration kHandover{1'000'000};
   std::ranges::sort(senders, {}, &BagSender::first);
@@ -68,7 +68,7 @@ bool are_mixed(std::vector<BagSender> senders) {
   return std::ranges::adjacent_find(senders, overlap) != senders.end();
 }
 
-/// Takes the sender that is wished for; joints of several nodes are told apart by their names.
+/// Selects the requested sender. Joints may have several senders, since they are distinguished by name.
 void choose_sender(Chooser& chooser, BagTopic& topic, const std::vector<std::string>& wishes) {
   for (const std::string& wish : wishes)
     if (std::ranges::count(topic.senders, wish, &BagSender::name) > 0) topic.sender = wish;
@@ -77,7 +77,7 @@ void choose_sender(Chooser& chooser, BagTopic& topic, const std::vector<std::str
                  "; choose by --sender NAME, or they are mixed");
 }
 
-/// What is no sender of any of the topics is a frame of the odometry.
+/// A requested name that is no sender of any topic is a frame of the odometry.
 void choose_frame(BagChoice& choice, const std::vector<std::string>& wishes) {
   for (const std::string& wish : wishes) {
     const bool is_sender = std::ranges::any_of(std::array{&choice.odometry, &choice.images, &choice.truth},

@@ -1,5 +1,5 @@
 #pragma once
-// Which topics of a bag a run is made of. Reentrant.
+// Chooses the topics of a bag for a run. Reentrant.
 
 #include <optional>
 #include <string>
@@ -10,28 +10,29 @@
 
 namespace azimuth {
 
-/// Names of topics; an empty one: whichever there is.
+/// Topics that the user requests. An empty name selects the only suitable topic.
 struct BagWishes {
   std::string odometry, images;
-  std::string truth;                      ///< empty: none
-  bool has_wheels = false;                ///< joints count as odometry: it is known how far apart the wheels are
-  std::vector<std::string> senders = {};  ///< of topics that several send: nodes, channels, or a frame of odometry
+  std::string truth;                      ///< empty: no truth
+  bool has_wheels = false;                ///< the wheel track is known, so joints may serve as odometry
+  std::vector<std::string> senders = {};  ///< nodes or channels for topics with several senders, or an odometry frame
 };
 
 struct BagChoice {
   std::optional<BagTopic> odometry, images, truth;
 };
 
-/// Odometry is nav_msgs/Odometry, or sensor_msgs/JointState of known wheels; if it is named so, poses as well. Images
-/// are sensor_msgs/Image or CompressedImage; there may be none. Refuses a topic that is not there or of no such type,
-/// several of which none is named, and one on which several send at the same time, of whom none is.
+/// Odometry is nav_msgs/Odometry, or sensor_msgs/JointState if the wheels are known, or a pose topic if the user names
+/// it. Images are sensor_msgs/Image or CompressedImage and are optional. Fails if a requested topic is missing or has
+/// the wrong type, if several topics are suitable and none is requested, or if a topic has several simultaneous senders
+/// and none is requested.
 FileResult<BagChoice> choose_topics(const std::string& file, const std::vector<BagTopic>& topics,
                                     const BagWishes& wishes);
 
-/// "/base (110 messages), /ekf (110 messages)".
+/// Example: "/base (110 messages), /ekf (110 messages)".
 std::string senders_of(const BagTopic& topic);
 
-/// What a topic can be used for, in a word or two; empty: nothing here reads it.
+/// Possible use of a topic, in a word or two; empty if the import cannot use it.
 std::string use_of(const BagTopic& topic);
 
 }  // namespace azimuth

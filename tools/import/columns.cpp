@@ -13,7 +13,7 @@ namespace azimuth {
 namespace {
 
 struct Unit {
-  std::string_view name, of;  // of: what the value's name ends in
+  std::string_view name, of;  // of: ending of the value's name
   double factor;
 };
 constexpr std::array<Unit, 12> kUnits{{{"m", "m", 1.0},
@@ -28,7 +28,7 @@ constexpr std::array<Unit, 12> kUnits{{{"m", "m", 1.0},
                                        {"km/h", "m_s", 1.0 / 3.6},
                                        {"rad/s", "rad_s", 1.0},
                                        {"deg/s", "rad_s", kPi / 180.0}}};
-constexpr std::array<std::string_view, 4> kTimes{"s", "ms", "us", "ns"};  // three digits more each
+constexpr std::array<std::string_view, 4> kTimes{"s", "ms", "us", "ns"};  // three more digits each
 
 std::string_view without_blanks(std::string_view text) {
   while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
@@ -36,7 +36,7 @@ std::string_view without_blanks(std::string_view text) {
   return text;
 }
 
-/// What of the units fits `value`, in words.
+/// The units that fit `value`, as text.
 std::string units_of(std::string_view value) {
   if (value == "t_s") return "s, ms, us, ns";
   std::string words;
@@ -45,7 +45,7 @@ std::string units_of(std::string_view value) {
   return words + "or a number to multiply by";
 }
 
-/// A unit by its name, or a number; false when it is neither.
+/// Sets a unit by name or as a number; false if it is neither.
 bool set_unit(std::string_view value, std::string_view unit, ForeignColumn& column) {
   if (take_unit(value, unit, column)) return true;
   if (value == "t_s") return false;
@@ -56,7 +56,7 @@ bool set_unit(std::string_view value, std::string_view unit, ForeignColumn& colu
   return true;
 }
 
-/// SECONDS+NANOSECONDS: its unit is that of the second column.
+/// Parses SECONDS+NANOSECONDS. The unit applies to the second column.
 std::string read_two_columns(std::string_view first, std::string_view second, ForeignColumn& column) {
   column.name = without_blanks(first);
   column.rest = without_blanks(second);
@@ -66,7 +66,7 @@ std::string read_two_columns(std::string_view first, std::string_view second, Fo
                : "";
 }
 
-/// [-]COLUMN[UNIT]; what is wrong with it, or nothing.
+/// Parses [-]COLUMN[UNIT]. Returns the error, or an empty text.
 std::string read_column(std::string_view value, std::string_view text, ForeignColumn& column) {
   column = {.name = {}, .given = true};
   if (text.starts_with('-')) {
@@ -85,7 +85,7 @@ std::string read_column(std::string_view value, std::string_view text, ForeignCo
   return text.empty() ? "must have the form VALUE=COLUMN[UNIT]" : "";
 }
 
-/// The names of `wanted`, for a sentence.
+/// The names of `wanted`, separated by commas.
 std::string names_of(std::span<const WantedColumn> wanted) {
   std::string names;
   for (const WantedColumn& each : wanted) names += (names.empty() ? "" : ", ") + std::string(each.name);

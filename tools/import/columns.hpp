@@ -1,5 +1,5 @@
 #pragma once
-// Which column of a foreign table holds what, and in which unit: what --columns says.
+// Assigns the columns of a foreign table to values, with units, as the option --columns specifies.
 
 #include <optional>
 #include <span>
@@ -11,35 +11,35 @@
 
 namespace azimuth {
 
-/// A value that a table is asked for. Its name ends in the unit it is kept in, as in run folders: t_s, x_m,
-/// heading_rad.
+/// A value that is read from a table. Its name ends in its unit, as in run folders: t_s, x_m, heading_rad.
 struct WantedColumn {
   std::string_view name;
   bool required = true;
 };
 
-/// Where it stands in the table.
+/// The column of a value, and its unit.
 struct ForeignColumn {
-  std::string name;       ///< as the header has it, or a number from 1
-  bool given = false;     ///< somebody said so; else it is the name of the value itself
-  double factor = 1.0;    ///< what stands there, times this, is the value; of other than stamps
-  int digits = 0;         ///< of a stamp: so many digits are fractions of a second, 9 in nanoseconds
-  std::string rest = {};  ///< of a stamp in two columns, the second one: what is beyond `name`; empty: there is none
-  int rest_digits = 9;    ///< as `digits`, of that
-  std::string unit = {};  ///< as it was written; empty: that of the value's name
+  std::string name;       ///< name in the header, or a number that counts from 1
+  bool given = false;     ///< the user gave the column; otherwise `name` is the name of the value
+  double factor = 1.0;    ///< value = factor * content of the column; not used for stamps
+  int digits = 0;         ///< for stamps: number of digits that are fractions of a second; 9 for nanoseconds
+  std::string rest = {};  ///< for stamps in two columns: the second one, with the fractions; empty if there is none
+  int rest_digits = 9;    ///< like `digits`, for `rest`
+  std::string unit = {};  ///< unit as written; empty: the unit in the value's name
 };
 
-/// Reads `VALUE=[-]COLUMN[UNIT],...`: t_s=stamp[ns],x_m=px,heading_rad=-yaw[deg]. A minus sign turns the value's sign.
-/// Units are s, ms, us, ns; m, cm, mm, km; rad, deg; of speeds m/s, cm/s, mm/s, km/h, rad/s, deg/s; or a number that
-/// the column is multiplied by. t_s=SECONDS+NANOSECONDS is a stamp in two columns. One entry for each of `wanted`, in
-/// their order; those that are not mentioned stand under their own name. `option` is what errors name. Reentrant.
+/// Parses `VALUE=[-]COLUMN[UNIT],...`, for example t_s=stamp[ns],x_m=px,heading_rad=-yaw[deg]. A minus sign inverts the
+/// sign of the value. Units are s, ms, us, ns; m, cm, mm, km; rad, deg; for speeds m/s, cm/s, mm/s, km/h, rad/s, deg/s;
+/// or a number by which the column is multiplied. t_s=SECONDS+NANOSECONDS is a stamp in two columns. Returns one entry
+/// for each of `wanted`, in the same order. Values that `text` does not mention have their own name as the column's
+/// name. Errors name `option`. Reentrant.
 FileResult<std::vector<ForeignColumn>> parse_columns(std::string_view text, std::span<const WantedColumn> wanted,
                                                      const std::string& option);
 
-/// Takes a unit that stands beside a column's name in the table itself; false: it is none of this value. Reentrant.
+/// Applies a unit from the header of the table. Returns false if the unit does not fit the value. Reentrant.
 bool take_unit(std::string_view value, std::string_view unit, ForeignColumn& column);
 
-/// The digits behind a second's point of a unit of time; nothing for any other word.
+/// Number of decimal digits of a second in a unit of time, for example 9 for ns; nothing for other words.
 std::optional<int> digits_of_time(std::string_view unit);
 
 }  // namespace azimuth

@@ -30,7 +30,7 @@ bool is_image_file(const fs::path& file) {
   return extension == ".jpg" || extension == ".jpeg" || extension == ".png";
 }
 
-/// By its first bytes: "jpg" or "png"; empty for what is neither, or cannot be read.
+/// Format by the first bytes: "jpg" or "png"; empty if the file is neither or cannot be read.
 std::string_view format_of(const fs::path& file) {
   std::array<char, 8> start{};
   std::ifstream stream(file, std::ios::binary);
@@ -40,7 +40,7 @@ std::string_view format_of(const fs::path& file) {
   return is_jpeg ? "jpg" : "";
 }
 
-/// Of a file that is neither JPEG nor PNG.
+/// Error text for a file that is neither JPEG nor PNG.
 std::string what_it_is(const fs::path& file) {
   std::array<char, 64> start{};
   std::ifstream stream(file, std::ios::binary);
@@ -57,7 +57,7 @@ bool is_file(const fs::path& file) {
   return fs::is_regular_file(file, ignored);
 }
 
-/// Whether a file is there and has not one byte, which is counted.
+/// True, and counted, if a file exists and is empty.
 bool was_empty(const fs::path& file, std::uint64_t& count) {
   std::error_code error;
   const bool is_empty = is_file(file) && fs::file_size(file, error) == 0 && !error;
@@ -65,7 +65,7 @@ bool was_empty(const fs::path& file, std::uint64_t& count) {
   return is_empty;
 }
 
-/// Sorts by stamp; two images of one stamp are an error.
+/// Sorts by stamp. Two images with the same stamp are an error.
 void put_in_order(std::vector<SourceImage>& images, FileErrorList& errors) {
   std::stable_sort(images.begin(), images.end(),
                    [](const SourceImage& a, const SourceImage& b) { return a.stamp < b.stamp; });
@@ -75,7 +75,7 @@ void put_in_order(std::vector<SourceImage>& images, FileErrorList& errors) {
                         " have the same stamp");
 }
 
-/// The path below `folder`; empty when it lies elsewhere.
+/// The path relative to `folder`; empty if the file is not below it.
 std::string below(const fs::path& file, const fs::path& folder) {
   std::error_code error;
   const fs::path relative = fs::relative(file, folder, error);
@@ -179,7 +179,7 @@ FileResult<std::vector<FrameFile>> bring_images(const std::vector<SourceImage>& 
         if (auto made = make_frames_folder(files); !made) return failure(made.error());
       has_folder = true;
       name = numbered_image(i, format_of(images[i].file));
-      // What stood there may be a link to somebody's only copy, which writing would go through.
+      // An existing file may be a link to the only copy of other data, which writing would overwrite.
       std::error_code error;
       fs::remove(files / name, error);
       if (!error) fs::copy_file(images[i].file, files / name, error);

@@ -15,7 +15,7 @@
 namespace azimuth {
 namespace {
 
-// Of poses.
+// Columns of poses.
 constexpr std::array<WantedColumn, 14> kPose{{{"t_s"},
                                               {"x_m", false},
                                               {"y_m", false},
@@ -36,7 +36,7 @@ constexpr std::size_t kT = 0, kX = 1, kY = 2, kHeading = 3, kQx = 4, kQy = 5, kQ
 bool is_plausible_component(double q) { return std::abs(q) <= 1.01; }
 bool is_plausible_wheel_angle(double angle_rad) { return std::abs(angle_rad) <= kMaxCoordinate_m; }
 
-/// The heading by either way; nothing: an error was added.
+/// The heading from either kind of column. Nothing, with an error, if it is invalid.
 std::optional<double> read_heading(ForeignTable& reader) {
   if (reader.has(kHeading)) return reader.number(kHeading, is_plausible_heading);
   const auto component = [&reader](std::size_t column) {
@@ -49,7 +49,7 @@ std::optional<double> read_heading(ForeignTable& reader) {
   return heading_rad;
 }
 
-/// The heading is not known.
+/// A pose without a known heading.
 std::optional<Pose2> read_position(ForeignTable& reader) {
   const auto x_m = reader.number(kX, is_plausible_coordinate);
   const auto y_m = reader.number(kY, is_plausible_coordinate);
@@ -71,7 +71,7 @@ bool has_distances(const ForeignTable& reader) { return reader.has(kLeft) && rea
 bool has_angles(const ForeignTable& reader) { return reader.has(kLeftAngle) && reader.has(kRightAngle); }
 bool has_speeds(const ForeignTable& reader) { return reader.has(kSpeed) && reader.has(kTurn); }
 
-/// What a table lacks for poses, in words; empty: nothing.
+/// The columns that a table lacks for poses, as text; empty if it is complete.
 std::string lacks_pose(const ForeignText& table, const ForeignTable& reader, bool with_heading) {
   std::string lacks;
   if (!reader.has(kX)) lacks += "x_m, ";
@@ -91,12 +91,13 @@ std::string lacks_odometry(const ForeignText& table, const ForeignTable& reader,
   return {};
 }
 
-/// Poses by speeds, where the table has no others.
+/// Computes poses from speeds, for tables without poses.
 class SpeedReader {
  public:
   explicit SpeedReader(Stamp first) : stamp_(first) {}
 
-  /// The pose at that stamp, as if each speed had become the next evenly; what that may miss, where rows are far apart.
+  /// The pose at `stamp`, with speeds interpolated linearly between rows. If rows are far apart, the reading contains
+  /// the standard deviation of the interpolation error.
   OdometryReading read(Stamp stamp, double speed_m_s, double turn_rad_s) {
     constexpr double kShort_s = 0.5;
     OdometryReading reading{.stamp = stamp, .T_odom_body = {}};
@@ -115,13 +116,13 @@ class SpeedReader {
 
  private:
   WheelPath path_{1.0};
-  Stamp stamp_;  // of the last reading
+  Stamp stamp_;  // stamp of the last reading
   double speed_m_s_ = 0.0, turn_rad_s_ = 0.0;
 };
 
 bool is_plausible_speed(double speed) { return std::abs(speed) <= 1000.0; }
 
-/// A row of odometry in three numbers: a pose, what two wheels have rolled, or two speeds.
+/// A row of odometry as three numbers: a pose, the distances rolled by two wheels, or two speeds.
 std::optional<std::array<double, 3>> read_motion(ForeignTable& reader) {
   if (has_pose(reader)) {
     const std::optional<Pose2> pose = read_pose(reader);
@@ -141,7 +142,7 @@ struct Motion3 {
   std::array<double, 3> values{};
 };
 
-/// What the rows make of themselves, by the columns that the table has.
+/// Odometry from the rows, according to the columns that the table has.
 FileResult<std::vector<OdometryReading>> odometry_of(const std::vector<Motion3>& rows, const ForeignTable& reader,
                                                      const Wheels& wheels, const std::string& file, TableNotes& notes) {
   std::vector<OdometryReading> readings;

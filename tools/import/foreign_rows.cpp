@@ -5,10 +5,10 @@
 namespace azimuth {
 namespace {
 
-/// How a column goes on from row to row.
+/// Monotonicity of a column from row to row.
 struct Course {
-  bool grows_within = false, falls_within = false;  // of rows of one stamp
-  bool falls = false;                               // anywhere
+  bool grows_within = false, falls_within = false;  // among rows with the same stamp
+  bool falls = false;                               // between any two rows
   double above = 0.0;
 
   void add(std::optional<double> value, bool is_first, bool is_same_stamp) {

@@ -1,5 +1,5 @@
 #pragma once
-// How tables are read row by row, whatever is in them. Internal to tools/import.
+// Reads tables of any content row by row. Internal to tools/import.
 
 #include <array>
 #include <cstdint>
@@ -14,14 +14,14 @@
 
 namespace azimuth {
 
-/// Which column tells rows of one stamp apart, and the option that says so, as the end of a sentence.
+/// End of an error message: suggests a column that distinguishes rows with the same stamp, and the option to use it.
 std::string finer_stamps(const ForeignText& table, std::span<const WantedColumn> wanted,
                          const std::vector<ForeignColumn>& columns);
 
-/// Rows that repeat the stamp of the row above.
+/// Filters rows that repeat the stamp of the row above.
 class RepeatedStamps {
  public:
-  /// Whether the row is to be kept: it has a stamp, later than that of the row above. `values`: what else it says.
+  /// True if the row has a later stamp than the row above. `values`: the other values of the row.
   bool keeps(ForeignTable& reader, const std::optional<Stamp>& stamp, const std::array<double, 3>& values) {
     if (!stamp) return false;
     ++rows_;
@@ -32,7 +32,7 @@ class RepeatedStamps {
   }
   std::uint64_t count() const { return repeated_ + contradicting_; }
 
-  /// Too many say something else at one and the same time for chance; empty: they do not.
+  /// Error text if too many rows have the same stamp but other values than the row above; otherwise empty.
   std::string problem() const {
     constexpr std::uint64_t kOneIn = 4, kEnough = 5;
     if (contradicting_ < kEnough || kOneIn * contradicting_ <= rows_) return {};
@@ -45,8 +45,9 @@ class RepeatedStamps {
   std::array<double, 3> above_{};
 };
 
-/// Walks `table` row by row: `use(reader)` for each, after `check(reader)` has found nothing missing, which it says in
-/// words. What `judge(reader, rows)` says at the end is wrong with the stamps.
+/// Reads `table` row by row. `check(reader)` returns the missing columns as text. If nothing is missing, `use(reader,
+/// rows)` is called for each row. At the end, `judge(reader, rows)` returns an error text about the stamps, or an empty
+/// text.
 template <class Rows, class Check, class Use, class Judge>
 FileResult<Rows> read_rows(const ForeignText& table, std::span<const WantedColumn> wanted, Check check, Use use,
                            Judge judge) {

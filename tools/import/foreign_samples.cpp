@@ -22,7 +22,8 @@ constexpr std::array<WantedColumn, 8> kBearing{{{"t_s"},
                                                 {"radius_px", false},
                                                 {"sigma_elevation_rad", false}}};
 
-/// The number in an optional column into `value`, which stays as it is when the field is empty; false: it is wrong.
+/// Reads the number in an optional column into `value`, which keeps its content if the field is empty. Returns false if
+/// the number is invalid.
 bool read_number(ForeignTable& reader, std::size_t column, bool (*fits)(double), double& value) {
   if (reader.field(column).empty()) return true;
   const std::optional<double> number = reader.number(column, fits);
@@ -52,7 +53,7 @@ std::optional<Bearing> read_bearing(ForeignTable& reader) {
   return good ? std::optional(bearing) : std::nullopt;
 }
 
-/// A note on bearings that have no name beside others that have one.
+/// Adds a note if some bearings have an identity and others have none.
 void note_nameless(const std::vector<BearingSet>& sets, const std::string& file, TableNotes& notes) {
   std::size_t all = 0, nameless = 0;
   for (const BearingSet& set : sets) {
@@ -66,8 +67,8 @@ void note_nameless(const std::vector<BearingSet>& sets, const std::string& file,
       "false all of them without their names");
 }
 
-/// A landmark that an image shows several times, in most images: stamps too coarse to tell images apart, which is what
-/// is returned; or else a note.
+/// Handles images with several bearings of the same landmark. If most images have them, the stamps are too coarse to
+/// distinguish images; the function then returns an error text. Otherwise it adds a note.
 std::string repeated_names(const std::vector<BearingSet>& sets, const std::string& file, TableNotes& notes) {
   std::size_t images = 0, most = 0;
   for (const BearingSet& set : sets) {

@@ -12,7 +12,7 @@
 namespace azimuth {
 namespace {
 
-constexpr char kBlanks = ' ';  // as a separator: any number of blanks and tabs
+constexpr char kBlanks = ' ';  // this separator means any number of blanks and tabs
 constexpr std::size_t kMostNames = 20;
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
@@ -23,14 +23,14 @@ std::string_view stripped(std::string_view text) {
   return text;
 }
 
-/// Without the quotes that spreadsheets put round it.
+/// The field without the quotes that spreadsheets put around it.
 std::string_view bare(std::string_view field) {
   field = stripped(field);
   const bool is_quoted = field.size() >= 2 && field.front() == '"' && field.back() == '"';
   return is_quoted ? stripped(field.substr(1, field.size() - 2)) : field;
 }
 
-/// printf's %+f is read as well.
+/// Removes a plus sign, as printf writes it for %+f.
 std::string_view without_plus(std::string_view number) {
   if (number.starts_with('+') && !number.starts_with("+-")) number.remove_prefix(1);
   return number;
@@ -44,7 +44,7 @@ char separator_in(std::string_view row) {
 
 bool is_number(std::string_view field) { return parse_double(without_plus(field)).has_value(); }
 
-/// "timestamp [ns]" in its two parts.
+/// The two parts of a header field such as "timestamp [ns]".
 struct NameAndUnit {
   std::string_view name, unit;
 };
@@ -54,7 +54,7 @@ NameAndUnit parted(std::string_view header) {
   return {stripped(header.substr(0, bracket)), stripped(header.substr(bracket + 1, header.size() - bracket - 2))};
 }
 
-/// What may have been meant by something that is no number.
+/// A hint for an invalid number that may contain a decimal comma.
 std::string decimal_comma(std::string_view text) {
   std::string with_point(text);
   std::ranges::replace(with_point, ',', '.');
@@ -80,7 +80,7 @@ std::optional<std::string_view> ForeignTable::next_line() {
   return take_line(rest_);
 }
 
-/// Past empty lines and comments, of which the last one is kept.
+/// The next row after empty lines and comments. Stores the last comment.
 std::optional<std::string_view> ForeignTable::next_row() {
   while (const std::optional<std::string_view> line = next_line()) {
     const std::string_view content = stripped(*line);
@@ -108,7 +108,7 @@ void ForeignTable::split(std::string_view line, char separator) {
   fields_.push_back(bare(line));
 }
 
-/// sep=; of a spreadsheet.
+/// Reads the first line `sep=;` of a spreadsheet.
 void ForeignTable::take_separator() {
   constexpr std::string_view kSeparator = "sep=";
   std::string_view rest = rest_;
@@ -137,7 +137,7 @@ void ForeignTable::read_header() {
   if (errors_.empty()) width_ = width;
 }
 
-/// By its name with its unit, without it, or by its number.
+/// Finds a column by its name with the unit, by its name without the unit, or by its number.
 std::optional<std::size_t> ForeignTable::place_of(std::string_view name) const {
   auto named = std::ranges::find(names_, name);
   if (named == names_.end()) named = std::ranges::find(names_, name, [](auto each) { return parted(each).name; });
@@ -218,7 +218,7 @@ void ForeignTable::fail_field(std::size_t column, const std::string& why) {
   fail(what + ' ' + (text.empty() ? "is empty" : in_quotes(text) + ' ' + why));
 }
 
-/// Whole seconds and what is beyond them; or a date and a time of day.
+/// A stamp in two columns: whole seconds and fractions, or a date and a time of day.
 std::optional<Stamp> ForeignTable::stamp_of_two(std::size_t column) {
   const std::string_view whole = field(column), rest = fields_[*rest_place_];
   if (const auto date = parse_date(std::string(whole).append(1, 'T').append(rest))) return date;

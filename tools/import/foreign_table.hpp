@@ -1,5 +1,5 @@
 #pragma once
-// Tables as other programs write them.
+// Reads tables of other programs.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,49 +15,51 @@
 
 namespace azimuth {
 
-/// Walks the rows of a table. Fields are separated by semicolons, commas or tabs, whichever the first row has, else by
-/// blanks; `sep=;` as the first line, which spreadsheets write, says which. Those round a field and its quotes are
-/// passed over, and so are empty lines and lines that begin with #. The first row names the columns when it holds no
-/// number; else the last line with a # before it, when that has as many names; and any column goes by its number. A
-/// unit in brackets behind a name, as of EuRoC, is no part of it, and holds unless another was given. Whatever is wrong
-/// goes to `errors`, and the walk continues.
+/// Iterates over the rows of a table.
+///
+/// Separators are semicolons, commas or tabs, whichever the first row contains, otherwise blanks. A first line such as
+/// `sep=;`, which spreadsheets write, sets the separator. Blanks and quotes around a field are ignored. Empty lines and
+/// lines that begin with # are skipped. The first row contains the column names if it contains no number. Otherwise the
+/// last comment line before it contains them if it has as many names as the row has fields. Each column can also be
+/// addressed by its number. A unit in brackets after a column name, as in EuRoC data sets, is not part of the name; it
+/// applies unless the user gave another unit. Errors are added to `errors`, and the iteration continues.
 ///
 /// Borrows everything it is given. Thread contract: thread-bound.
 class ForeignTable {
  public:
-  /// `columns`: one for each of `wanted`, as parse_columns() gives them. `option` is what says which is which.
+  /// `columns`: one for each of `wanted`, from parse_columns(). `option`: name of the option that assigns columns.
   ForeignTable(std::string_view text, std::span<const WantedColumn> wanted, std::span<const ForeignColumn> columns,
                std::string_view option, FileErrorList& errors);
 
-  /// Goes to the next row of the right width; false at the end, or when a column is missing.
+  /// Goes to the next row of the right width. False at the end, or if a column is missing.
   bool next();
   void fail(std::string message) { errors_.add(line_, std::move(message)); }
 
   bool has(std::size_t column) const { return place_[column].has_value(); }
-  /// Of the present row; empty when the column is absent.
+  /// Field of the present row; empty if the column is absent.
   std::string_view field(std::size_t column) const;
 
-  /// What a number in the table was multiplied by, 1 when the column is absent.
+  /// Factor by which numbers of the column are multiplied; 1 if the column is absent.
   double factor(std::size_t column) const { return columns_[column].factor; }
 
-  // Of the present row. What cannot be read, or is not plausible, is an error and nothing.
-  /// A number, of two columns perhaps, or a date and time as ISO 8601 has them.
+  // Values of the present row. For an unreadable or implausible field, an error is added and the result is nothing.
+  /// A stamp: a number in one or two columns, or a date and time in ISO 8601.
   std::optional<Stamp> stamp(std::size_t column);
   std::optional<double> number(std::size_t column, bool (*fits)(double));
   std::optional<std::int64_t> integer(std::size_t column, bool (*fits)(std::int64_t));
 
   enum class Order { later, same, earlier };
-  /// Of `stamp` and that of the row above; an earlier one is an error.
+  /// Order of `stamp` relative to the row above. An earlier stamp adds an error.
   Order order(Stamp stamp);
 
-  // Of all columns, from 0, asked for or not.
+  // Access to all columns of the table by index from 0, whether requested or not.
   std::size_t width() const { return width_; }
   std::string_view any_field(std::size_t place) const { return fields_[place]; }
   bool is_asked_for(std::size_t place) const;
-  std::string name_of(std::size_t place) const;  ///< or its number from 1
+  std::string name_of(std::size_t place) const;  ///< the name, or the number from 1 if there are no names
 
   int line() const { return line_; }
-  /// The names of its columns, or how many there are, for a sentence.
+  /// Part of an error text: the names of the table's columns, or their number.
   std::string columns_there() const;
 
  private:
@@ -78,27 +80,27 @@ class ForeignTable {
   std::vector<ForeignColumn> columns_;
   std::string_view option_;
   FileErrorList& errors_;
-  std::vector<std::optional<std::size_t>> place_;  // of each column among the fields
-  std::optional<std::size_t> rest_place_;          // of the second column of a stamp
-  std::vector<std::string_view> names_, fields_;   // names: empty when there are none
-  std::string_view comment_;                       // the last one above the first row
+  std::vector<std::optional<std::size_t>> place_;  // field index of each wanted column
+  std::optional<std::size_t> rest_place_;          // field index of the second column of a stamp
+  std::vector<std::string_view> names_, fields_;   // names_ is empty if the table has none
+  std::string_view comment_;                       // the last comment before the first row
   std::optional<char> told_separator_;
   std::optional<std::string_view> first_row_;
   std::optional<Stamp> above_;
   char separator_ = ',';
-  std::size_t width_ = 0;  // 0: nothing can be read
+  std::size_t width_ = 0;  // number of fields per row; 0 if the table is unreadable
   int line_ = 0;
 };
 
-/// UTF-16, which some spreadsheets write, as UTF-8; any other text as it is. Reentrant.
+/// Converts UTF-16, which some spreadsheets write, to UTF-8. Other text stays unchanged. Reentrant.
 std::string in_utf8(std::string text);
 
-/// A date and a time of day as ISO 8601 has them, 2026-05-01T12:30:00.250Z, a blank in place of the T, an offset in
-/// place of the Z; without either it is taken for UTC. Nothing for any other text. Reentrant.
+/// Parses a date and time of day in ISO 8601, for example 2026-05-01T12:30:00.250Z. A blank may replace the T, and an
+/// offset may replace the Z. Without either, the time is UTC. Nothing for other text. Reentrant.
 std::optional<Stamp> parse_date(std::string_view text);
 
-/// The time that a number stands for, the last `digits` before its point being fractions of a second: 9 of nanoseconds;
-/// to the nearest microsecond. Nothing when it is none, or out of range. Reentrant.
+/// Parses a number as a time. The last `digits` digits before its decimal point are fractions of a second, 9 for
+/// nanoseconds. The result is rounded to microseconds. Nothing if the text is no number or out of range. Reentrant.
 std::optional<Stamp> parse_time(std::string_view text, int digits);
 
 }  // namespace azimuth

@@ -1,12 +1,12 @@
 #pragma once
-// What the messages of ROS 2 are made of that a run can be made of: databases carried no definitions before Iron.
+// Built-in definitions of the ROS 2 messages that the import uses. Databases before ROS 2 Iron contain no definitions.
 
 #include <string>
 #include <string_view>
 
 namespace azimuth {
 
-/// For RosDefinition; empty: of another type. `type` is sensor_msgs/Image.
+/// The definition of a type such as sensor_msgs/Image, for RosDefinition; empty for other types.
 std::string known_definition(std::string_view type);
 
 }  // namespace azimuth

@@ -24,7 +24,7 @@ FileResult<void> bring_raw_images(Run& run, const std::filesystem::path& out) {
     if (!is_raw(frames[i])) continue;
     const ImageView image = images.recorded(i);
     frames[i] = {frames[i].stamp, numbered_image(i, "png")};
-    std::error_code ignored;  // a file of an earlier run
+    std::error_code ignored;  // removes a file of an earlier import
     std::filesystem::remove(out / frames[i].file, ignored);
     if (image.bytes.empty()) continue;
     if (auto kept = files.keep(i, frames[i].stamp, image); !kept) return failure(kept.error());

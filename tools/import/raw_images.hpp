@@ -1,5 +1,5 @@
 #pragma once
-// The images of a log whose pixels are not compressed, for a run folder.
+// Converts uncompressed images of a log for a run folder.
 //
 // Thread contract: reentrant.
 
@@ -10,9 +10,9 @@
 
 namespace azimuth {
 
-/// Makes PNG files below `out`/frames of the grey and coloured ones among the run's frames, which then name them. Of
-/// one that cannot be read there is no file, so that it counts as unreadable there as well. Frames of other kinds stay
-/// as they are. Refuses Bayer patterns and YUV, which PNG cannot hold without loss.
+/// Writes the uncompressed grey and colour frames of the run as PNG files below `out`/frames and updates run.frames. An
+/// unreadable frame gets no file, so that it counts as unreadable in the run folder too. Other frames stay unchanged.
+/// Rejects Bayer patterns and YUV, which PNG cannot hold without loss.
 FileResult<void> bring_raw_images(Run& run, const std::filesystem::path& out);
 
 }  // namespace azimuth

@@ -18,7 +18,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);
 
-/// ROS is little-endian, as are the machines that Azimuth runs on.
+/// Reads a little-endian number. All machines that Azimuth supports are little-endian.
 template <class Number>
 Number number_at(Bytes bytes, std::size_t index) {
   Number number{};
@@ -58,7 +58,7 @@ struct Encoding {
   std::string_view name;
   PixelFormat pixels;
 };
-// Names before ROS 2 Iron, and since.
+// Names of encodings before ROS 2 Iron and from Iron on.
 constexpr std::array<Encoding, 13> kEncodings{{{"mono8", PixelFormat::gray8},
                                                {"8UC1", PixelFormat::gray8},
                                                {"rgb8", PixelFormat::rgb8},
@@ -73,11 +73,12 @@ constexpr std::array<Encoding, 13> kEncodings{{{"mono8", PixelFormat::gray8},
                                                {"bayer_gbrg8", PixelFormat::bayer_gbrg8},
                                                {"bayer_bggr8", PixelFormat::bayer_bggr8}}};
 
-/// Of which some bytes of each pixel are kept: those of a colour without transparency, the upper one of 16 bits.
+/// An encoding of which only some bytes of each pixel are kept: colours without transparency, the upper byte of 16
+/// bits.
 struct WideEncoding {
   std::string_view name;
   PixelFormat pixels;
-  int bytes;  // of a pixel
+  int bytes;  // bytes per pixel
 };
 constexpr std::array<WideEncoding, 5> kWideEncodings{{{"rgba8", PixelFormat::rgb8, 4},
                                                       {"bgra8", PixelFormat::bgr8, 4},
@@ -85,7 +86,7 @@ constexpr std::array<WideEncoding, 5> kWideEncodings{{{"rgba8", PixelFormat::rgb
                                                       {"mono16", PixelFormat::gray8, 2},
                                                       {"16UC1", PixelFormat::gray8, 2}}};
 
-/// A side or a stride; 0 when it is none.
+/// An image side or stride; 0 if it is implausible.
 int length_of(const RosMessage& message, std::string_view path) {
   const double value = message.number(path).value_or(0.0);
   return value >= 0.0 && value <= 1e6 ? static_cast<int>(value) : 0;
@@ -100,7 +101,7 @@ RosImage compressed_image(const RosMessage& message) {
   return {.image = {packed_format(PixelFormat::mjpeg, width_px, height_px), *bytes}};
 }
 
-/// The bytes of each pixel that are kept, in rows without padding; no bytes: the message has too few.
+/// The image with the kept bytes of each pixel, in rows without padding. No bytes if the message is too short.
 ImageView narrowed(const RosMessage& message, const WideEncoding& wide, std::vector<std::byte>& out) {
   const FrameFormat format = packed_format(wide.pixels, length_of(message, "width"), length_of(message, "height"));
   const Bytes bytes = message.bytes("data").value_or(Bytes{});
@@ -124,7 +125,7 @@ bool holds(std::string_view name, std::string_view word) {
   return std::search(name.begin(), name.end(), word.begin(), word.end(), same) != name.end();
 }
 
-/// The only joint for which `is_meant(name)`; nothing when there is none, or another one.
+/// Angle of the only joint for which `is_meant(name)` is true; nothing if there is none or more than one.
 template <class IsMeant>
 std::optional<double> only_joint(const RosMessage& message, IsMeant is_meant) {
   std::optional<double> found;
@@ -195,7 +196,7 @@ std::optional<Stamp> RosMessage::time(std::string_view path) const {
 
 namespace {
 
-/// Of a pose in whichever message.
+/// Path prefix of the pose, which depends on the message type.
 std::string pose_path(const RosMessage& message) {
   return message.has("pose.pose.position.x") ? "pose.pose." : "pose.";
 }
@@ -221,7 +222,7 @@ bool has_unset_orientation(const RosMessage& message) {
 
 std::optional<RosTwist> twist_of(const RosMessage& message) {
   const auto speed_m_s = message.number("twist.twist.linear.x"), turn_rad_s = message.number("twist.twist.angular.z");
-  constexpr double kFastest = 100.0;  // of either, and more than any robot does
+  constexpr double kFastest = 100.0;  // limit of both speeds, above that of any robot
   if (!speed_m_s || !turn_rad_s || !(std::abs(*speed_m_s) < kFastest && std::abs(*turn_rad_s) < kFastest))
     return std::nullopt;
   return RosTwist{*speed_m_s, *turn_rad_s};

@@ -13,9 +13,9 @@ namespace {
 
 constexpr double kWorthSaying_m = 1e-3;
 constexpr double kWorthSaying_rad = 1e-3;
-constexpr double kMostTilt_rad =
-    0.6;  // where no axis is this near to the vertical, nobody knows which is the optical one
-constexpr std::size_t kDeepest = 100;  // frames, one in the other
+// Largest angle between the optical axis and the vertical. If no axis is within it, the optical axis is unknown.
+constexpr double kMostTilt_rad = 0.6;
+constexpr std::size_t kDeepest = 100;  // limit of the depth of the frame tree
 
 template <class Use>
 void each_message(const BagFile& bag, const BagTopic& topic, Use use) {
@@ -31,7 +31,7 @@ std::string without_slash(std::string_view frame) {
   return std::string(frame.starts_with('/') ? frame.substr(1) : frame);
 }
 
-/// Of the first message that names one.
+/// The frame in the first message that names one.
 std::string frame_of(const BagFile& bag, const BagTopic& topic, std::string_view path) {
   std::string frame;
   each_message(bag, topic, [&](const RosMessage& message) {
@@ -40,7 +40,7 @@ std::string frame_of(const BagFile& bag, const BagTopic& topic, std::string_view
   return frame;
 }
 
-/// Nothing: a value is missing, or it is no rotation.
+/// The transform at path `at`. Nothing if a value is missing or the quaternion is no rotation.
 std::optional<Eigen::Isometry3d> transform_in(const RosMessage& message, const std::string& at) {
   const auto number = [&](const char* name) { return message.number(at + name).value_or(std::nan("")); };
   const Eigen::Vector3d p(number("translation.x"), number("translation.y"), number("translation.z"));
@@ -112,14 +112,14 @@ std::optional<CameraTilt> CameraMounting::tilt() const {
 
 namespace {
 
-/// Of the keys that are worth saying, those of `camera` that it says nothing of.
+/// Lines for those keys that `camera` does not set and whose values differ from the defaults.
 std::string lines_of(const CameraMounting& mounting, const CameraRig& camera) {
   const std::string source = fmt::format("# /tf_static: {} in {}\n", mounting.camera, mounting.base);
   std::string lines;
   const Eigen::Vector3d& p_m = mounting.p_base_camera_m;
   if (camera.position_m == std::array<double, 2>{} && p_m.head<2>().norm() >= kWorthSaying_m)
     lines += fmt::format("position_m = [{:.4f}, {:.4f}]  {}", p_m.x(), p_m.y(), source);
-  CameraMounting turned = mounting;  // the rig leans before it turns
+  CameraMounting turned = mounting;  // a rig's tilt applies before its yaw
   turned.R_base_camera = Eigen::AngleAxisd(-camera.yaw_offset_rad, Eigen::Vector3d::UnitZ()) * mounting.R_base_camera;
   const std::optional<CameraTilt> tilt = turned.tilt();
   const bool levels = takes_images(camera.model) && !std::holds_alternative<RadialRig>(camera.model);
@@ -142,7 +142,7 @@ std::optional<std::string> rig_with(const CameraMounting& mounting, const std::s
   if (lines.empty()) return std::nullopt;
   std::string text = rig_toml;
   text.insert(table + kTable.size(), lines);
-  if (!read_rig(text, "rig.toml")) return std::nullopt;  // it has the key already, with zeros
+  if (!read_rig(text, "rig.toml")) return std::nullopt;  // the text already contains the key, with zeros
   return text;
 }
 

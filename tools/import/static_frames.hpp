@@ -1,5 +1,5 @@
 #pragma once
-// Where a bag says that the camera stands: static transforms between the frames that odometry and images name.
+// Determines the mounting of the camera from static transforms of a bag, between the frames of odometry and images.
 //
 // Thread contract: reentrant.
 
@@ -14,12 +14,12 @@
 
 namespace azimuth {
 
-/// A tree of frames, each fixed in its parent.
+/// A tree of frames. Each frame is fixed in its parent.
 class StaticFrames {
  public:
-  /// The last one counts of several that name the same child.
+  /// Adds a transform. If several name the same child, the last one counts.
   void add(const std::string& parent, const std::string& child, const Eigen::Isometry3d& T_parent_child);
-  /// Nothing: they hang on different roots, or a frame is its own parent.
+  /// The transform between two frames. Nothing if they have different roots or if the tree contains a cycle.
   std::optional<Eigen::Isometry3d> between(const std::string& from, const std::string& to) const;
 
  private:
@@ -36,24 +36,25 @@ class StaticFrames {
   std::map<std::string, InParent> frames_;
 };
 
-/// The camera on the robot, by /tf_static.
+/// The mounting of the camera on the robot according to /tf_static.
 struct CameraMounting {
-  std::string base, camera;                  ///< names of the frames
+  std::string base, camera;                  ///< frame names
   Eigen::Vector3d p_base_camera_m{0, 0, 0};  ///< x forward, y left, z up
   Eigen::Matrix3d R_base_camera = Eigen::Matrix3d::Identity();
 
-  /// Of the axis of the camera's frame that is next to vertical: z of an optical frame that looks up and of a body's
-  /// frame, x of a body's frame that was turned up. Its turn about that axis is the azimuths' offset. Nothing: none of
-  /// them is near the vertical.
+  /// Tilt of the axis of the camera's frame that is nearest to the vertical: z for an optical frame that looks up or
+  /// for a body frame, x for a body frame that is turned up. The rotation about that axis belongs to the azimuth
+  /// offset. Nothing if no axis is near the vertical.
   std::optional<CameraTilt> tilt() const;
 };
 
-/// Nothing: the bag has no images or no such transform. Frames are those that the messages of `choice` name: the base
-/// is the child of nav_msgs/Odometry, else base_link or base_footprint.
+/// The frames are those named by the messages of `choice`. The base is the child frame of nav_msgs/Odometry, otherwise
+/// base_link or base_footprint. Nothing if the bag has no images or no such transform.
 std::optional<CameraMounting> camera_mounting(const BagFile& bag, const BagChoice& choice);
 
-/// The text of a rig.toml that says nothing of where its camera stands, or how it leans, with that; how it leans only
-/// of cameras whose images are levelled by it. Nothing: it does say something, or there is nothing to say.
+/// The text of a rig.toml with the camera's position and tilt added if the text lacks them. The tilt is added only for
+/// cameras whose bearings are levelled with it. Nothing if the text already contains them or if there is nothing to
+/// add.
 std::optional<std::string> rig_with(const CameraMounting& mounting, const std::string& rig_toml);
 
 }  // namespace azimuth

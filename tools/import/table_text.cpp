@@ -1,4 +1,4 @@
-// Texts of tables: their letters, and times of day.
+// Character encodings and times in the text of tables.
 
 #include <algorithm>
 #include <chrono>
@@ -11,7 +11,7 @@
 namespace azimuth {
 namespace {
 
-/// Takes `digits` digits off the front of `text`; nothing: there are none.
+/// Removes `digits` digits from the front of `text`; nothing if there are fewer.
 std::optional<unsigned> take_number(std::string_view& text, std::size_t digits) {
   unsigned number = 0;
   if (text.size() < digits) return std::nullopt;
@@ -41,7 +41,7 @@ std::optional<std::chrono::sys_days> take_date(std::string_view& text) {
   return date.ok() ? std::optional(std::chrono::sys_days(date)) : std::nullopt;
 }
 
-/// Hours and minutes, in seconds.
+/// Parses hours and minutes. The result is in seconds.
 std::optional<std::int64_t> take_clock(std::string_view& text, bool colon_is_needed) {
   const auto hours = take_number(text, 2);
   const bool colon = hours && (take(text, ':') || !colon_is_needed);
@@ -50,7 +50,7 @@ std::optional<std::int64_t> take_clock(std::string_view& text, bool colon_is_nee
   return 3600 * static_cast<std::int64_t>(*hours) + 60 * static_cast<std::int64_t>(*minutes);
 }
 
-/// Z, +02:00, -0730, +01; nothing at all is UTC as well.
+/// Parses a time zone: Z, +02:00, -0730 or +01. An empty text means UTC.
 std::optional<std::int64_t> offset_of(std::string_view text) {
   if (text.empty() || text == "Z" || text == "z" || text == "UTC" || text == " UTC") return 0;
   const std::int64_t sign = text.front() == '-' ? -1 : 1;
@@ -62,7 +62,7 @@ std::optional<std::int64_t> offset_of(std::string_view text) {
   return offset_s && clock.empty() ? std::optional(sign * *offset_s) : std::nullopt;
 }
 
-/// A letter of the first plane; halves of others become ?.
+/// Appends a character of the Basic Multilingual Plane. Surrogates become '?'.
 void append_utf8(std::string& out, unsigned letter) {
   if (letter >= 0xD800 && letter < 0xE000) letter = '?';
   if (letter < 0x80) {
@@ -107,7 +107,7 @@ std::optional<Stamp> parse_time(std::string_view text, int digits) {
   const std::size_t point = std::min(text.find('.'), text.size());
   const std::string_view fraction = point < text.size() ? text.substr(point + 1) : std::string_view{};
   if (point == 0) return std::nullopt;
-  // The point moves, so that no digit of 19 is lost to a double.
+  // The decimal point is moved in the text, because a double cannot hold 19 digits.
   const auto shift = static_cast<std::size_t>(digits);
   std::string whole(text.substr(0, point));
   if (whole.size() <= shift) whole.insert(0, shift + 1 - whole.size(), '0');

@@ -15,7 +15,7 @@ struct CounterRange {
   double counts;
   const char* name;
 };
-/// In which wheels are counted: hoverboards' end at 8999, resolvers' at 3599.
+/// Common ranges of wheel counters. Counters of hoverboards end at 8999, those of resolvers at 3599.
 constexpr std::array<CounterRange, 19> kRanges{{{2.0 * kPi, "a full turn"},
                                                 {256, "256 (8 bits)"},
                                                 {360, "360 (a full turn)"},
@@ -36,16 +36,16 @@ constexpr std::array<CounterRange, 19> kRanges{{{2.0 * kPi, "a full turn"},
                                                 {16777216, "16777216 (24 bits)"},
                                                 {4294967296.0, "4294967296 (32 bits)"}}};
 
-/// Steps shorter than that part of the range are what they seem, longer ones than that are wraps; between them nobody
-/// can tell.
+/// Steps below kPlain times the range are real; steps above kWrapped times the range are wraps. Steps in between are
+/// ambiguous.
 constexpr double kPlain = 0.25, kWrapped = 0.75;
 constexpr double kRounding = 1e-6;
-/// Of less nothing is plain; and a wheel that wraps at every second reading does so too fast.
+/// Least number of readings for which a range is determined. A wrap in every kSeldom-th reading is too frequent.
 constexpr std::size_t kFewest = 10, kSeldom = 2;
-// A step through the wrap is not much faster than those near by.
+// A step through the wrap must not be much faster than the neighbouring steps.
 constexpr std::size_t kNear = 5;
 constexpr double kFaster = 2.0, kRoom = 0.003, kRoom_m = 0.02;
-// Of a range that is not among the known ones.
+// Conditions for a range that is not among kRanges.
 constexpr std::size_t kWrapsThatAgree = 3;
 constexpr double kAgree = 0.02;
 
@@ -72,13 +72,14 @@ WheelCounter::WheelCounter(std::vector<Stamp> stamps, std::vector<double> counts
 
 double WheelCounter::elapsed_s(std::size_t index) const { return to_seconds(stamps_[index] - stamps_[index - 1]); }
 
-/// The step to a reading, by the shorter way round.
+/// The step to a reading, corrected for a wrap.
 double WheelCounter::wrapped(std::size_t index, double range) const {
   const double plain = step(index);
   return std::abs(plain) > kWrapped * range ? plain - std::copysign(range, plain) : plain;
 }
 
-/// Of steps near by that are no longer than `longest`, in counts a second: the fastest either way, or the mean.
+/// Speed of the neighbouring steps of at most `longest` counts, in counts per second: the largest magnitude or the
+/// mean.
 double WheelCounter::speed_near(std::size_t index, double longest, bool fastest) const {
   double sum = 0.0, most = 0.0;
   int count = 0;
@@ -93,7 +94,7 @@ double WheelCounter::speed_near(std::size_t index, double longest, bool fastest)
   return fastest ? most : count > 0 ? sum / count : 0.0;
 }
 
-/// Whole counts come to one less than the range, others all but there.
+/// True if all counts fit into the range. Integer counts reach at most the range minus one.
 bool WheelCounter::may_be(double range) const {
   return span_ <= (are_whole_ ? range - 1.0 : range * (1.0 + kRounding));
 }
@@ -113,7 +114,7 @@ bool WheelCounter::fits(double range) const {
   return kSeldom * wraps < counts_.size();
 }
 
-/// How far the steps through the wrap are from those near by.
+/// Sum of the differences between steps through the wrap and the steps that neighbouring speeds predict.
 double WheelCounter::misfit(double range) const {
   double sum = 0.0;
   for (std::size_t i = 1; i < counts_.size(); ++i)
@@ -129,7 +130,7 @@ std::optional<double> WheelCounter::range() const {
   return best ? best : agreed_range();
 }
 
-/// The range by what each wrap says of it.
+/// The range as the mean of the estimates from each wrap, if these agree.
 std::optional<double> WheelCounter::agreed_range() const {
   if (jumps().size() < kWrapsThatAgree) return std::nullopt;
   const double wrap = kWrapped * span_;

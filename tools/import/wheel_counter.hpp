@@ -1,5 +1,5 @@
 #pragma once
-// What one wheel has counted, and the range in which it does. Internal to tools/import.
+// The counter of one wheel and the range in which it wraps. Internal to tools/import.
 
 #include <cstddef>
 #include <optional>
@@ -14,31 +14,32 @@ namespace azimuth {
 /// Thread contract: reentrant.
 class WheelCounter {
  public:
-  /// `counts`: as they were written, of `count_m` each; at least one.
+  /// `counts`: at least one recorded count. One count corresponds to `count_m` metres.
   WheelCounter(std::vector<Stamp> stamps, std::vector<double> counts, double count_m);
 
-  /// The range at whose end it begins again: a full turn, 8, 16 or 32 bits and the like, or another one that at least
-  /// three wraps agree upon. Nothing: it does not wrap, or none fits.
+  /// The range after which the counter restarts: a common one, such as a full turn, 8, 16 or 32 bits, or another one on
+  /// which at least three wraps agree. Nothing if the counter does not wrap or no range fits.
   std::optional<double> range() const;
 
-  /// One that it stays within, stepping through it so fast that nobody can tell which way; nothing: there is none.
+  /// A range that contains all counts and in which the steps are so large that their direction is ambiguous; nothing if
+  /// there is none.
   std::optional<double> range_too_narrow() const;
 
-  /// Goes on where it would begin again; how often it did.
+  /// Makes the counts continuous over wraps. Returns the number of wraps.
   std::size_t unwrap(double range);
 
-  /// Steps that no wheel makes, and the index of the reading after each.
+  /// A step that no wheel can make, and the index of the reading after the step.
   struct Jump {
     std::size_t index = 0;
     OdometryJump jump;
   };
   std::vector<Jump> jumps() const;
 
-  /// Whether the step to that reading is half of what it ever counted, or more.
+  /// True if the step to the reading is at least half of the whole span of counts.
   bool is_most_of_all(std::size_t index) const { return 2.0 * std::abs(step(index)) > span_; }
 
   double rolled_m(std::size_t index) const { return count_m_ * counts_[index]; }
-  double step(std::size_t index) const { return counts_[index] - counts_[index - 1]; }  ///< to that reading
+  double step(std::size_t index) const { return counts_[index] - counts_[index - 1]; }  ///< step to the reading
 
  private:
   bool may_be(double range) const;
@@ -56,7 +57,7 @@ class WheelCounter {
   bool are_whole_ = false;
 };
 
-/// "65536 (16 bits)", "a full turn".
+/// Examples: "65536 (16 bits)", "a full turn".
 std::string range_text(double range);
 
 }  // namespace azimuth

@@ -12,9 +12,9 @@
 namespace azimuth {
 namespace {
 
-/// An odometer that is read for the first time since it began may have counted so far already.
+/// Largest distance that counts as zero after a restart, since the wheels may roll before the first reading.
 constexpr double kZero_m = 0.1;
-/// As many jumps may be exceptions.
+/// Largest number of jumps, or one in so many readings, that may be exceptions.
 constexpr std::size_t kMostJumps = 3, kMostIn = 20;
 
 bool is_at_zero(const WheelReading& reading) {
@@ -33,7 +33,7 @@ NamedWheel wheel(const char* name, const std::vector<WheelReading>& readings, do
   for (const WheelReading& reading : readings) {
     stamps.push_back(reading.stamp);
     counts.push_back(reading.*rolled_m / count_m);
-    // What was whole when it was written is so again.
+    // Counts that were recorded as integers become integers again.
     if (const double whole = std::round(counts.back()); std::abs(counts.back() - whole) < 1e-9 * std::abs(whole))
       counts.back() = whole;
   }
@@ -60,7 +60,7 @@ std::string no_wheel_does(const NamedWheel& wheel, const WheelCounter::Jump& jum
       jumps > 1 ? fmt::format(" (and {} times more)", jumps - 1) : "");
 }
 
-/// Unwraps both, in notes; what stands in the way of it.
+/// Unwraps both counters and adds notes. Returns an error text, or an empty text.
 std::string unwrap(std::array<NamedWheel, 2>& wheels, std::vector<std::string>& notes) {
   for (auto& [name, counter] : wheels) {
     if (const std::optional<double> range = counter.range()) {
@@ -97,7 +97,7 @@ FileResult<std::vector<OdometryReading>> wheel_odometry(std::vector<WheelReading
   WheelPath path(track_m);
   std::vector<OdometryReading> odometry;
   std::uint32_t origin = 0;
-  double left_m = 0.0, right_m = 0.0;  // since the first reading, as far as that is known
+  double left_m = 0.0, right_m = 0.0;  // distances since the first reading, without unknown motions
   for (std::size_t i = 0; i < readings.size(); ++i) {
     OdometryReading reading{.stamp = readings[i].stamp, .sequence = i, .T_odom_body = {}};
     if (const OdometryJump* const jump = restart[i]) {

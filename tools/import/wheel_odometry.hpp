@@ -1,5 +1,5 @@
 #pragma once
-// Odometry from what two wheels have counted: counters that wrap are unwrapped, those that begin anew are bridged.
+// Computes odometry from the counters of two wheels. Wrapping counters are unwrapped; restarts are bridged.
 //
 // Thread contract: reentrant.
 
@@ -11,22 +11,22 @@
 
 namespace azimuth {
 
-/// How far both wheels have rolled, at one instant.
+/// Distances that both wheels have rolled at one instant.
 struct WheelReading {
   Stamp stamp{};
   double left_m = 0.0, right_m = 0.0;
 };
 
-/// What one count is of what was written: metres a radian, or a tick.
+/// Metres per recorded unit (radian or tick) of each wheel.
 struct WheelCounts {
   double left_m = 1.0, right_m = 1.0;
 };
 
-/// Poses of wheels `track_m` apart, from the first of `readings` on, which are in the order of their stamps. A counter
-/// whose range is plain (all its readings lie within it, and some steps are nearly all of it) is unwrapped, which
-/// `notes` say. Where both begin at zero again, or a wheel makes a step now and then that no wheel makes, the pose goes
-/// on from another origin, with what is unknown of the way meanwhile. Errors, of `file`: steps through most of a range
-/// that is not plain, with time and size.
+/// Computes poses for a wheel track of `track_m`. `readings` are sorted by stamp; the first one is the origin. A
+/// counter with an unambiguous range (it contains all readings, and some steps span nearly all of it) is unwrapped, and
+/// `notes` says so. If both counters restart at zero, or if a wheel occasionally makes an impossible step, the pose
+/// continues with another origin and with the uncertainty of the unknown motion. Fails, with time and size of a step,
+/// if the counts make large steps without an unambiguous range. Errors name `file`.
 FileResult<std::vector<OdometryReading>> wheel_odometry(std::vector<WheelReading> readings, const WheelCounts& counts,
                                                         double track_m, const std::string& file,
                                                         std::vector<std::string>& notes);

@@ -1,5 +1,5 @@
 #pragma once
-// The pose of a differential drive from how far its wheels have rolled.
+// Computes the pose of a differential drive from the distances its wheels have rolled.
 
 #include <cmath>
 #include <optional>
@@ -8,18 +8,18 @@
 
 namespace azimuth {
 
-/// What turns wheels into a pose; 0: not told.
+/// Dimensions of the wheels; 0 if not given.
 struct Wheels {
-  double radius_m = 0.0;  ///< of both wheels: angles to distances
-  double track_m = 0.0;   ///< between the points where they touch the floor
+  double radius_m = 0.0;  ///< radius of both wheels, to convert angles to distances
+  double track_m = 0.0;   ///< distance between the contact points of the wheels
 };
 
-/// Adds up the arcs between readings, each of one curvature. Thread contract: thread-bound.
+/// Integrates arcs of constant curvature between readings. Thread contract: thread-bound.
 class WheelPath {
  public:
   explicit WheelPath(double track_m) : track_m_(track_m) {}
 
-  /// The pose after both wheels have rolled so far since some beginning; the first call is where it begins.
+  /// The pose after both wheels have rolled the given total distances. The first call defines the origin.
   Pose2 at(double left_m, double right_m) {
     const double left = begun_ ? left_m - left_m_ : 0.0, right = begun_ ? right_m - right_m_ : 0.0;
     begun_ = true;
@@ -29,7 +29,7 @@ class WheelPath {
     return T_odom_body_;
   }
 
-  /// The pose after an arc of that length, along which the heading turns so far.
+  /// The pose after an arc of the given length and turn.
   Pose2 drive(double length_m, double turned_rad) {
     const double half_rad = 0.5 * turned_rad;
     const double along_m = length_m * (std::abs(half_rad) < 1e-9 ? 1.0 : std::sin(half_rad) / half_rad);
@@ -46,8 +46,8 @@ class WheelPath {
   Pose2 T_odom_body_;
 };
 
-/// The heading of a rotation, which is nearly one about the vertical; nothing when the quaternion is none: its length
-/// must be 1 within a hundredth.
+/// The heading of a rotation that is nearly about the vertical. Nothing if the length of the quaternion differs from 1
+/// by more than a hundredth.
 inline std::optional<double> heading_of(double qx, double qy, double qz, double qw) {
   const double length = std::sqrt(qx * qx + qy * qy + qz * qz + qw * qw);
   if (!(std::abs(length - 1.0) < 0.01)) return std::nullopt;

@@ -14,15 +14,15 @@ namespace azimuth {
 namespace {
 
 constexpr std::size_t kLeastLamps = 3;
-constexpr double kLeastSpread_rad = 0.5;  // of the angles from the axis under which lamps are seen
-constexpr double kMostMustFitLens = 0.5;  // of the sightings
-constexpr double kMostCentre_px = 2.0;    // standard deviations that are still worth a rig
+constexpr double kLeastSpread_rad = 0.5;  // least range of the lamps' angles from the axis
+constexpr double kMostMustFitLens = 0.5;  // least share of observations that fit
+constexpr double kMostCentre_px = 2.0;    // largest acceptable standard deviations
 constexpr double kMostRadius_px = 4.0;
-constexpr double kAnyTilt_rad = 0.05;  // of a camera whose tilt nobody measured, standard deviation
-constexpr double kSurelyLeans = 18.4;  // squared, in standard deviations: by chance one level camera in ten thousand
-constexpr double kBeyond_rad = 0.02;   // the lens is given as far as lamps were seen, and this much more
+constexpr double kAnyTilt_rad = 0.05;  // prior standard deviation of an unmeasured tilt
+constexpr double kSurelyLeans = 18.4;  // chi squared with 2 degrees of freedom at a probability of 1e-4
+constexpr double kBeyond_rad = 0.02;   // the lens is valid up to the largest observed angle plus this
 
-/// Round by round, lamps are where they are expected to fewer pixels.
+/// Tracking gates for each round. They narrow as the lens improves.
 constexpr std::array<TrackingGate, 4> kRounds{{{15.0, 3.0}, {8.0, 1.5}, {6.0, 1.0}, {6.0, 1.0}}};
 
 std::vector<SeenLamps> look(const Run& run, const CameraRig& rig, const LampSettings& settings, std::string& problem) {
@@ -48,7 +48,7 @@ std::vector<SeenLamps> look(const Run& run, const CameraRig& rig, const LampSett
   return all;
 }
 
-/// Tried one after another where nobody measured it: the one by which most lamps are where they are expected.
+/// Estimates an unmeasured lamp height: tries a range of heights and returns the one with the least tracking cost.
 double likely_height_m(const FisheyeStart& start, const std::vector<SeenLamps>& images) {
   constexpr double kLowest_m = 0.8, kHighest_m = 20.0, kRatio = 1.2;
   double best_m = kLowest_m, least = std::numeric_limits<double>::infinity();
@@ -70,8 +70,8 @@ double theta_seen(const LensDrive& drive, const LensSolution& solution) {
   return solution.lens.theta_rad(farthest_px);
 }
 
-/// How a lens leans looks much like a centre that is elsewhere, so that both are less certain where neither is known:
-/// it is as the rig says unless lamps contradict that.
+/// A tilt and an offset of the image centre have similar effects, so estimating both makes both uncertain. The tilt
+/// therefore keeps the rig's value unless the lamps contradict it.
 std::optional<LensSolution> fitted(const LensFitStart& map, LensPriors priors, bool& tilt_found) {
   priors.sigma_tilt_rad = kAnyTilt_rad;
   const auto leaning = fit_lens(map.drive, map.start, priors);

@@ -1,5 +1,5 @@
 #pragma once
-// A fisheye's lens from the lamps that it sees on a drive.
+// Calibrates the lens of a fisheye camera from the ceiling lamps that it sees on a drive.
 
 #include <optional>
 #include <string>
@@ -13,19 +13,19 @@ namespace azimuth {
 struct FisheyeCalibration {
   LensDrive drive;
   LensSolution solution;
-  bool tilt_found = false;      ///< else the lens leans as the rig says, which the drive does not contradict
-  bool height_known = false;    ///< else the lens's scale is the one it began with
-  double theta_seen_rad = 0.0;  ///< how far from the axis lamps were seen that fit
-  double theta_max_rad = 0.0;   ///< the lens is given up to here: no farther, and as far as it grows
-  Rig rig;                      ///< as it was, with that lens
+  bool tilt_found = false;      ///< true if the drive contradicts the rig's tilt; otherwise the rig's tilt is used
+  bool height_known = false;    ///< true if the lamp height was given; otherwise the lens keeps its initial scale
+  double theta_seen_rad = 0.0;  ///< largest angle from the axis of an observation that fits
+  double theta_max_rad = 0.0;   ///< limit of the lens: near theta_seen_rad, where theta still grows with the radius
+  Rig rig;                      ///< the input rig with the calibrated lens
 };
 
-/// Looks at all images some times over, each time with the better lens. Nothing, and in `problem` one sentence that
-/// says why, when the drive cannot tell. Deterministic.
+/// Processes all images several times, each time with the improved lens. If the drive does not determine the lens, the
+/// result is empty and `problem` has one sentence with the reason. Deterministic.
 std::optional<FisheyeCalibration> calibrate_fisheye(const Run& run, const Rig& rig, const LampSettings& settings,
                                                     const FisheyeRequest& request, std::string& problem);
 
-/// Why sightings in that number and place do not tell a lens; empty: they may.
+/// The reason why the lamp observations, or the solution, do not determine the lens; empty if they do.
 std::string why_cannot_tell(const LensFitStart& map);
 std::string why_cannot_tell(const LensSolution& solution, double theta_seen_rad);
 

@@ -10,8 +10,8 @@
 namespace azimuth {
 namespace {
 
-constexpr double kNewLampsFrom = 2.5;  // heights aside: farther off, their places are hardly known
-constexpr std::size_t kOften = 8;      // sightings of a lamp that counts
+constexpr double kNewLampsFrom = 2.5;  // largest horizontal distance of a new lamp, in lamp heights
+constexpr std::size_t kOften = 8;      // least number of observations of a lamp that is used
 
 struct Followed {
   Eigen::Vector2d place = Eigen::Vector2d::Zero();
@@ -77,7 +77,7 @@ class Follower {
     return lens_.image(seen_from(pose_, lamp), lens_.axes.polar(about).radius_px);
   }
 
-  /// Pairs of which each is the other's nearest, and no other lamp is nearly as near.
+  /// Pairs of mutual nearest neighbours within the gate. Any rival must be more than twice as far away.
   std::vector<Match> matched(const SeenLamps& seen) const {
     std::vector<Match> matches;
     std::vector<std::optional<Pixel>> expected(lamps_.size());
@@ -108,7 +108,7 @@ class Follower {
     return matches;
   }
 
-  /// One step of Gauss and Newton from odometry's pose and the lamps.
+  /// One Gauss-Newton step for the pose, from odometry and the matched lamps.
   void settle(const Motion& motion, const SeenLamps& seen, const std::vector<Match>& matches) {
     const Pose2 before = poses_.empty() ? Pose2{} : poses_.back();
     const MovedPose moved = apply(before, motion);

@@ -1,5 +1,5 @@
 #pragma once
-// Which lamp of which image is which: lamps are tracked through the images of a drive by prediction.
+// Data association of lamps: tracks lamps through the images of a drive by prediction.
 
 #include <vector>
 
@@ -12,23 +12,24 @@ struct SeenLamp {
   Pixel pixel = Pixel::Zero();
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Identity();
 };
-using SeenLamps = std::vector<SeenLamp>;  ///< in one image
+using SeenLamps = std::vector<SeenLamp>;  ///< the detections in one image
 
-/// How far a lamp may be from where it is expected, and with how much error of lens and path that expectation counts.
+/// Gate of the data association: largest distance of a lamp from its predicted pixel, and standard deviation of the
+/// prediction due to errors of lens and path.
 struct TrackingGate {
   double gate_px = 15.0, sigma_px = 3.0;
 };
 
-/// What to begin a fit with.
+/// Starting point of a lens fit.
 struct LensFitStart {
-  LensDrive drive;     ///< sightings of lamps that were seen often
-  LensSolution start;  ///< the lens as given, path and lamps as followed through the images
-  double cost = 0.0;   ///< mean of the squares, in units of the gate: near 1 where hardly anything was recognised
+  LensDrive drive;     ///< observations of lamps that were seen often
+  LensSolution start;  ///< the given lens, with path and lamps from tracking
+  double cost = 0.0;   ///< mean squared distance in units of the gate; near 1 if hardly any lamp was recognised
 };
 
-/// Goes through the images in their order. In each, odometry and the lamps known so far say where the robot is, lamps
-/// that are where they were expected are those, and others are new ones unless they are near the horizon.
-/// Deterministic.
+/// Processes the images in order. For each image, odometry and the known lamps give the robot's pose. Detections near a
+/// predicted lamp are assigned to that lamp. Other detections become new lamps unless they are near the horizon.
+/// `motions`: one per image, from the previous image. Deterministic.
 LensFitStart map_lamps(const std::vector<Motion>& motions, const std::vector<SeenLamps>& images, const Lens& lens,
                        double lamp_height_m, const TrackingGate& trust);
 

@@ -33,7 +33,7 @@ std::optional<double> rho_of(const std::array<double, 4>& c, double beside, doub
   return std::nullopt;
 }
 
-/// Along the image's u axis, of a lens that does not lean.
+/// The image, along the u axis, of a direction `theta_rad` from the lens axis.
 std::optional<Lens::Image> image_along_u(Lens lens, double theta_rad) {
   lens.tilt = {};
   const double azimuth = lens.axes.azimuth_offset_rad;
@@ -44,8 +44,8 @@ std::optional<Lens::Image> image_along_u(Lens lens, double theta_rad) {
 
 }  // namespace
 
-/* With o the azimuth's offset and s its direction, q = (X cos o + Y sin o, s (Y cos o - X sin o)) is d times the
- * direction in the image, so that (u, v) = (u0, beta v0) + diag(1, beta) (r / d) q, which is smooth at the centre.
+/* With azimuth offset o and azimuth direction s, q = (X cos o + Y sin o, s (Y cos o - X sin o)) is d times the unit
+ * direction in the image. Hence (u, v) = (u0, beta v0) + diag(1, beta) (r / d) q, which is smooth at the centre.
  */
 std::optional<Lens::Image> Lens::image_in_camera(const Eigen::Vector3d& point_m, double about_px) const {
   const double beside = std::max(point_m.head<2>().norm(), kNoDistance), above = point_m.z();
@@ -72,7 +72,7 @@ std::optional<Lens::Image> Lens::image_in_camera(const Eigen::Vector3d& point_m,
 }
 
 /* In the camera's frame q = R_x(-roll) R_y(-pitch) p, so that d q / d roll = -e_x x q and
- * d q / d pitch = -R_x(-roll) (e_y x R_y(-pitch) p) = -(R^T e_y) x q (SPEC VI.34).
+ * d q / d pitch = -R_x(-roll) (e_y x R_y(-pitch) p) = -(R^T e_y) x q (mathematics VI.34).
  */
 std::optional<Lens::Image> Lens::image(const Eigen::Vector3d& point_m, double about_px) const {
   const Eigen::Matrix3d R_camera_level = tilt.R_level_camera().transpose();
@@ -125,7 +125,7 @@ std::array<double, PolynomialFisheye::kCoefficients> Lens::coefficients() const 
   return a;
 }
 
-/// Least squares of rho cos(theta) + F(rho) sin(theta) over radii, which is linear in the coefficients.
+/// Minimises the sum of squares of rho cos(theta) + F(rho) sin(theta) over radii, which is linear in the coefficients.
 std::optional<Lens> lens_of(const CameraRig& rig, double unit_px, std::string& problem) {
   const auto tilted = camera_of(rig, problem);
   if (!tilted) return std::nullopt;

@@ -12,29 +12,29 @@
 
 namespace azimuth {
 
-/// What is looked for of a lens: where its axis meets the image, its polynomial without the linear term, which no
-/// smooth lens has, and how it is turned about its axis.
+/// Number of lens parameters that a fit estimates: image centre (2), polynomial coefficients (4) and azimuth offset
+/// (1). The polynomial has no linear term, since a smooth lens has none.
 inline constexpr int kLensNumbers = 7;
 using LensVector = Eigen::Matrix<double, kLensNumbers, 1>;
 using LensCovariance = Eigen::Matrix<double, kLensNumbers, kLensNumbers>;
 
-/// The polynomial fisheye (slam/camera/polynomial_fisheye.hpp) with its radii in units of `radius_px`, in which its
-/// coefficients are all about as large:
+/// The polynomial fisheye (slam/camera/polynomial_fisheye.hpp) with radii in units of `radius_px`, so that all
+/// coefficients have a similar size:
 ///
 ///   rho Z + F(rho) d = 0,  F(rho) = c0 + c2 rho^2 + c3 rho^3 + c4 rho^4,  r = radius_px rho
 ///
-/// for what is d beside and Z above the viewpoint. Where Z and all c are multiplied by the same number, nothing in the
-/// image changes: images alone do not tell heights from focal lengths (SPEC VI.28).
+/// for a point at horizontal distance d and height Z from the viewpoint. If Z and all c are multiplied by the same
+/// number, the image does not change: images alone cannot separate heights from focal lengths (mathematics VI.28).
 ///
 /// Thread contract: reentrant.
 struct Lens {
   ImageAxes axes;
   std::array<double, 4> c{};  ///< c0, c2, c3, c4
   double radius_px = 1.0;
-  CameraTilt tilt{};  ///< how it leans: d and Z above are those of the camera's own axis
+  CameraTilt tilt{};  ///< tilt of the camera; d and Z above refer to the camera's own axis
 
-  /// The image of (X, Y, Z) in the robot's frame, x ahead, y to the left, z up from the viewpoint; `about_px` is a
-  /// radius near which it is. Nothing where no radius near it fits.
+  /// The image of (X, Y, Z) in the robot's axes with origin at the viewpoint: x ahead, y to the left, z up. `about_px`
+  /// is the initial radius of the search. Nothing if no radius near it fits.
   struct Image {
     Pixel pixel = Pixel::Zero();
     Eigen::Matrix<double, 2, 3> by_point;
@@ -43,39 +43,40 @@ struct Lens {
   };
   std::optional<Image> image(const Eigen::Vector3d& point_m, double about_px) const;
 
-  /// Where a pixel looks: (X, Y) on a plane `height_m` above the viewpoint. Nothing at the horizon and below.
+  /// The point (X, Y) on a plane `height_m` above the viewpoint that a pixel shows. Nothing at or below the horizon.
   std::optional<Eigen::Vector2d> on_plane(const Pixel& pixel, double height_m) const;
 
-  /// Along which a pixel looks, of any length.
+  /// Viewing ray of a pixel; its length is arbitrary.
   Eigen::Vector3d ray(const Pixel& pixel) const;
 
   double theta_rad(double radius_px) const;
 
-  LensVector numbers() const;  ///< but for the tilt
+  LensVector numbers() const;  ///< all parameters except the tilt
   Lens moved(const LensVector& by) const;
 
-  std::array<double, PolynomialFisheye::kCoefficients> coefficients() const;  ///< of radii in pixels
+  std::array<double, PolynomialFisheye::kCoefficients> coefficients() const;  ///< for radii in pixels
 
  private:
   std::optional<Image> image_in_camera(const Eigen::Vector3d& point_m, double about_px) const;
 };
 
-/// The lens of a rig that looks up, whatever its model; `unit_px` is the largest radius of interest. Another model is
-/// approached by the polynomial as well as can be up to there. Nothing, and why in `problem`, if it makes no camera.
+/// The lens of a rig whose camera looks up. `unit_px` is the largest radius of interest. The polynomial approximates
+/// other camera models up to that radius. If the rig describes no valid camera, the result is empty and `problem` has
+/// the reason.
 std::optional<Lens> lens_of(const CameraRig& rig, double unit_px, std::string& problem);
 
-/// The radius at which something is seen `theta_rad` from the axis; NaN: nowhere.
+/// Image radius of a direction `theta_rad` from the axis; NaN if it has no image.
 double radius_px(const Lens& lens, double theta_rad);
-/// Its standard deviation, by all that is not known of the lens.
+/// Standard deviation of radius_px() due to the polynomial coefficients.
 double sigma_radius_px(const Lens& lens, const LensCovariance& covariance, double theta_rad);
 
-/// Up to `wanted_rad`, or as far as theta grows with the radius.
+/// The largest angle up to `wanted_rad` for which theta grows with the radius.
 double theta_max_rad(const Lens& lens, double wanted_rad);
 
-/// Half the image's smaller side, or to the rim of the mask where that is less; 0: neither is known.
+/// The smaller of half the image's smaller side and the outer radius of the mask; 0 if neither is known.
 double image_radius_px(const ImageRig& image);
 
-/// The rig with this lens in place of its own, for directions up to `theta_max_rad`.
+/// The rig with its lens replaced by `lens`, valid up to `theta_max_rad` from the axis.
 CameraRig with_lens(CameraRig rig, const Lens& lens, double theta_max_rad);
 
 }  // namespace azimuth

@@ -9,8 +9,8 @@
 namespace azimuth {
 namespace {
 
-constexpr double kSame = 1e-6;     // standard deviation of what is held, in its own unit
-constexpr double kLeast_m = 1e-4;  // of a motion, which odometry may call certain; [rad] likewise
+constexpr double kSame = 1e-6;     // standard deviation of fixed numbers, in their own units
+constexpr double kLeast_m = 1e-4;  // least standard deviation of a motion [m, rad]: odometry may state zero
 
 class Equations {
  public:
@@ -38,7 +38,7 @@ class Equations {
   int of_lamp(std::size_t lamp) const { return of_frame(at_.T_map_body.size()) + 3 * static_cast<int>(lamp); }
   int height_of(std::size_t lamp) const { return of_lamp(lamp) + 2; }
 
-  /// Its cost is counted here, but for sightings'.
+  /// Adds one row and its cost. Observation rows are added without row(), since their cost uses the robust kernel.
   void row(std::initializer_list<Entry> entries, double error) {
     for (const Entry& entry : entries)
       entries_.emplace_back(static_cast<int>(errors_.size()), entry.column, entry.value);
@@ -65,15 +65,19 @@ class Equations {
     const double sigma_tilt_rad = std::max(priors_.sigma_tilt_rad, kSame);
     row({{kRoll, 1.0 / sigma_tilt_rad}}, (at_.lens.tilt.roll_rad - priors_.tilt.roll_rad) / sigma_tilt_rad);
     row({{kPitch, 1.0 / sigma_tilt_rad}}, (at_.lens.tilt.pitch_rad - priors_.tilt.pitch_rad) / sigma_tilt_rad);
-    const Pose2& first = at_.T_map_body.front();  // which is the map's origin
+    const Pose2& first = at_.T_map_body.front();  // the origin of the map
     row({{of_frame(0), 1.0 / kSame}}, first.x_m / kSame);
     row({{of_frame(0) + 1, 1.0 / kSame}}, first.y_m / kSame);
     row({{of_frame(0) + 2, 1.0 / kSame}}, first.heading_rad / kSame);
   }
 
-  /* What is read of a motion (X, Y, P) is off by scales of what was driven, not of what was read: else noise shrinks
-   * with the scale, and a fit would rather have a world too small (SPEC VI.28). The way of an arc turns by half its
-   * turn. e = q - z - s_d (X, Y, 0) - s_t P (-Y / 2, X / 2, 1)
+  /* Residual of a measured motion z, given the estimated motion q = (X, Y, P) and the scale errors s_d and s_t:
+   *
+   *   e = q - z - s_d (X, Y, 0) - s_t P (-Y / 2, X / 2, 1)
+   *
+   * The scale errors multiply the estimated motion, not the measured one. Otherwise the noise would shrink with the
+   * scale, and the fit would favour a world that is too small (mathematics VI.28). The chord of an arc turns by half
+   * the turn of the arc.
    */
   void drive_on(std::size_t frame) {
     const Motion& motion = drive_.motions[frame];
@@ -98,7 +102,7 @@ class Equations {
     for (const double each : Eigen::Vector3d(root.matrixL().solve(error))) row({}, each);
   }
 
-  /* Of a lamp at l, its height H + h, from a robot at p with heading phi:
+  /* A lamp at l with height H + h, seen by a robot at p with heading phi, has the coordinates
    *   (X, Y) = R(phi)^T (l - p), Z = H + h;   d (X, Y) / d phi = (Y, -X)
    */
   void see(const LampObservation& sighting) {

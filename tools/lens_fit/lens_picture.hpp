@@ -4,7 +4,7 @@
 
 namespace azimuth {
 
-/// residual_picture() of all sightings of a drive, on an image of it.
+/// residual_picture() of all lamp observations of a drive, drawn on one of its images.
 PlotCanvas lens_picture(const ImageView& image, const LensDrive& drive, const LensSolution& solution);
 
 }  // namespace azimuth

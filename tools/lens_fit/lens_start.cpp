@@ -14,7 +14,7 @@ constexpr double kLeastPath_m = 2.0;
 constexpr double kLeastTurns_rad = kPi / 2.0;
 constexpr std::size_t kLeastImages = 10;
 
-/// Without a word where the drive may tell something.
+/// The reason why the drive is too short or turns too little; empty if it suffices.
 std::string why_too_little(const std::vector<Motion>& motions) {
   double path_m = 0.0;
   double least_rad = 0.0, most_rad = 0.0, heading_rad = 0.0;
@@ -60,7 +60,7 @@ std::string why_not_for(const Run& run, const Rig& rig, const FisheyeRequest& re
   return {};
 }
 
-/// r = f theta, the field of view as wide as the image's circle.
+/// Sets the model r = f theta, with f such that the field of view fills the image circle.
 void begin_equidistant(double field_of_view_rad, CameraRig& camera) {
   const double theta_rad = 0.5 * field_of_view_rad;
   camera.model = EquidistantRig{image_radius_px(camera.image) / theta_rad};

@@ -8,7 +8,7 @@
 namespace azimuth {
 namespace {
 
-// Told apart by every kind of colour vision.
+// These colours stay distinct for every kind of colour vision.
 constexpr Colour kFits{0.337, 0.706, 0.914}, kDoesNot{0.835, 0.369, 0.0}, kLens{0.902, 0.624, 0.0};
 constexpr Colour kBehind{0.0, 0.0, 0.0, 0.6};
 

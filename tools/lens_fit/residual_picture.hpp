@@ -7,7 +7,7 @@
 
 namespace azimuth {
 
-/// Residuals are drawn so many times as long as they are.
+/// Factor by which residuals are enlarged in the picture.
 inline constexpr double kResidualZoom = 20.0;
 
 struct Residual {
@@ -15,8 +15,8 @@ struct Residual {
   bool fits = true;
 };
 
-/// On an image of the lens: its centre, circles 30, 60 and 90 degrees from the axis, and how far each thing that was
-/// seen is from where the fit has it. `rms_px`: what is said of them all.
+/// An image of the camera, overlaid with the lens centre, circles at 30, 60 and 90 degrees from the axis, and the
+/// enlarged residuals. `rms_px`: the root mean square for the caption.
 PlotCanvas residual_picture(const ImageView& image, const Lens& lens, const std::vector<Residual>& residuals,
                             double rms_px);
 

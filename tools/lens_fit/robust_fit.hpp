@@ -1,6 +1,5 @@
 #pragma once
-// What the fits of a lens have in common: Gauss and Newton, damped, on sparse equations, with Cauchy's kernel on what
-// was seen in images.
+// Common part of the lens fits: damped Gauss-Newton on sparse equations, with the Cauchy kernel on image observations.
 
 #include <Eigen/SparseCore>
 #include <algorithm>
@@ -11,29 +10,31 @@
 
 namespace azimuth {
 
-/// J dx = -e, each row whitened, and weighed where it is a sighting's.
+/// The equations J dx = -e. Each row is whitened; rows of observations also include the robust weight.
 struct FitEquations {
   Eigen::SparseMatrix<double> J;
   Eigen::VectorXd e;
-  double cost = 0.0;                           ///< with the kernel
-  std::vector<double> mahalanobis2, error_px;  ///< of each sighting; infinite, and NaN: the lens has no image of it
+  double cost = 0.0;                           ///< including the robust kernel
+  std::vector<double> mahalanobis2, error_px;  ///< for each observation; infinite and NaN if the lens has no image
 };
 
-/// Beyond so many standard deviations a sighting counts less than half.
+/// Residual, in standard deviations, at which the Cauchy kernel gives an observation half weight.
 inline constexpr double kHalfWeight = 3.0;
 
-/// Which sightings count in full, more or less, and the variance of what they leave in units of what was claimed.
-/// `unknowns`: how many numbers they alone had to tell. 1 where nothing is left to judge by.
+/// `fits`: whether an observation has at least half weight. `unit_variance`: ratio of the residual variance to the
+/// stated variance.
 struct SightingWeights {
   std::vector<bool> fits;
   double unit_variance = 1.0;
 };
+/// `unknowns`: number of unknowns that only the observations determine. If no degrees of freedom are left, the unit
+/// variance is 1.
 SightingWeights weigh(const std::vector<double>& mahalanobis2, double unknowns);
 
-/// Nothing: the damped information is singular.
+/// The damped Gauss-Newton step. Nothing if the damped information matrix is singular.
 std::optional<Eigen::VectorXd> damped_step(const FitEquations& equations, double damping);
 
-/// Of the first `count` unknowns. Nothing: the information is singular.
+/// Covariance of the first `count` unknowns. Nothing if the information matrix is singular.
 std::optional<Eigen::MatrixXd> leading_covariance(const FitEquations& equations, Eigen::Index count);
 
 template <class State>
@@ -42,14 +43,14 @@ struct Settled {
   FitEquations equations;
 };
 
-/// From `at` to where the cost is least: `equations_at(state)` gives FitEquations, `moved(state, step)` the state a
-/// step further. Nothing: what is there does not determine the unknowns. Deterministic.
+/// Minimises the cost from the initial state `at`. `equations_at(state)` returns FitEquations; `moved(state, step)`
+/// returns the state after a step. Nothing if the measurements do not determine the unknowns. Deterministic.
 template <class State, class EquationsAt, class Moved>
 std::optional<Settled<State>> settled(State at, const EquationsAt& equations_at, const Moved& moved) {
   constexpr int kMostSteps = 60;
   constexpr double kSettled = 1e-9;  // relative decrease of the cost
-  // What can be stretched together at next to no cost hardly moves by a step that is damped at all, so only one that is
-  // not says that there is nothing left to gain.
+  // Weakly determined directions hardly move in a damped step. Only a step with no more damping than this may therefore
+  // end the iteration.
   constexpr double kUndamped = 1e-13;
   FitEquations equations = equations_at(at);
   double damping = 1e-5;
@@ -72,20 +73,20 @@ std::optional<Settled<State>> settled(State at, const EquationsAt& equations_at,
   return Settled<State>{std::move(at), std::move(equations)};
 }
 
-/// What a sighting weighs whose error's square is that, in variances.
+/// Cauchy weight of an observation with this squared Mahalanobis distance.
 inline double cauchy_weight(double mahalanobis2) { return 1.0 / (1.0 + mahalanobis2 / (kHalfWeight * kHalfWeight)); }
 inline double cauchy_cost(double mahalanobis2) {
   return 0.5 * kHalfWeight * kHalfWeight * std::log1p(mahalanobis2 / (kHalfWeight * kHalfWeight));
 }
-/// That of a sighting without an image.
+/// Cost of an observation whose object has no image under the present lens.
 inline double lost_cost() {
   constexpr double kGone2 = 1e4;
   return 0.5 * kHalfWeight * kHalfWeight * std::log1p(kGone2);
 }
 
-/// Root of the mean square of the errors that fit; 0: none does.
+/// Root mean square of the residuals that fit; 0 if none fits.
 double rms_px(const std::vector<double>& error_px, const std::vector<bool>& fits);
-/// Share of them; 0: there are none.
+/// Share of the elements that are true; 0 if there are none.
 double share(const std::vector<bool>& fits);
 
 }  // namespace azimuth

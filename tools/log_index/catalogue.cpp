@@ -11,9 +11,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kApplication = 0x415A4C47;  // "AZLG", in the file's header
+constexpr std::int64_t kApplication = 0x415A4C47;  // "AZLG", SQLite's application id in the file header
 constexpr std::int64_t kSchema = 1;
-constexpr int kPatience_ms = 10'000;  // for another process that writes
+constexpr int kPatience_ms = 10'000;  // time to wait for another process that writes
 constexpr std::string_view kBusy = "is being written by another process";
 
 constexpr const char* kTables = R"(
@@ -32,7 +32,7 @@ CREATE TABLE logs (
 CREATE INDEX logs_by_start ON logs (start_utc);
 )";
 
-/// Where the logs lie as seen from the catalogue.
+/// The folder of the logs relative to the catalogue file.
 std::string folder_from(const fs::path& file, const fs::path& folder) {
   std::error_code ignored;
   return fs::weakly_canonical(folder, ignored)
@@ -42,7 +42,7 @@ std::string folder_from(const fs::path& file, const fs::path& folder) {
 
 }  // namespace
 
-/// One statement of SQL with its values, in their order.
+/// An SQL statement with its values in order.
 class Catalogue::Statement {
  public:
   Statement(sqlite3* database, const char* sql) { sqlite3_prepare_v2(database, sql, -1, &statement_, nullptr); }
@@ -50,7 +50,7 @@ class Catalogue::Statement {
   Statement& operator=(const Statement&) = delete;
   ~Statement() { sqlite3_finalize(statement_); }
 
-  /// Empty text is unknown.
+  /// Empty text becomes NULL.
   Statement& operator<<(const std::string& value) {
     const int size = static_cast<int>(value.size());
     if (value.empty())

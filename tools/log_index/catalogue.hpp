@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue's file. Its tables are documented in docs/fleet.md.
+// The catalogue of field logs, an SQLite file. docs/fleet.md documents its tables.
 
 #include <cstdint>
 #include <filesystem>
@@ -16,7 +16,7 @@ struct sqlite3;
 
 namespace azimuth {
 
-/// By what a log is known to have changed.
+/// Properties by which a change of a log is detected.
 struct LogState {
   std::uint64_t bytes = 0, image_bytes = 0, files = 0;
   std::int64_t changed_ns = 0;
@@ -24,26 +24,26 @@ struct LogState {
 };
 inline LogState state_of(const FoundLog& log) { return {log.bytes, log.image_bytes, log.files, log.changed_ns}; }
 
-/// Of everything in the catalogue.
+/// Totals over all logs in the catalogue.
 struct CatalogueTotals {
   std::uint64_t logs = 0, in_trouble = 0, bytes = 0;
   double duration_s = 0.0, distance_m = 0.0;
 };
 
-/// Whether it failed for another process that writes the catalogue: nothing is wrong with it, and later it may be done.
+/// True if an operation failed only because another process was writing the catalogue. It may succeed later.
 bool is_busy(const FileErrors& errors);
 
-/// Thread contract: thread-bound.
+/// An open catalogue. Thread contract: thread-bound.
 class Catalogue {
  public:
-  /// Makes the file unless it is there. Refuses one that is another program's, a newer version's, or the catalogue of
-  /// another folder than `folder`, which is kept relative to the file: both may move together.
+  /// Opens the file or creates it. Fails if the file belongs to another program, to a newer version, or to another
+  /// folder than `folder`. The catalogue stores the folder relative to the file, so that both can be moved together.
   static FileResult<Catalogue> open(const std::filesystem::path& file, const std::filesystem::path& folder);
 
-  /// By the logs' paths.
+  /// The states of all logs by path.
   FileResult<std::map<std::string, LogState>> states();
 
-  /// Replaces what is known of these logs and forgets the others, or leaves everything as it was.
+  /// Replaces the entries of the logs in `rows` and deletes those of `vanished`. On failure the catalogue is unchanged.
   FileResult<void> update(std::span<const CatalogueRow> rows, std::span<const std::string> vanished);
 
   FileResult<CatalogueTotals> totals();

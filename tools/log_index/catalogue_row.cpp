@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kMicroseconds = 1e-6;
 
-/// Between 2001 and 2100: stamps of simulated drives count from their start.
+/// Stamps between the years 2001 and 2100 are dates; stamps of simulated drives count from the start of the drive.
 constexpr std::int64_t kFirstDate_us = 978'307'200'000'000, kLastDate_us = 4'102'444'800'000'000;
 
 std::optional<std::string> utc_text(std::int64_t since_epoch_us) {
@@ -22,19 +22,20 @@ std::optional<std::string> utc_text(std::int64_t since_epoch_us) {
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(static_cast<std::time_t>(since_epoch_us / 1'000'000)));
 }
 
-/// "ROBOT7_" is the prefix of ROBOT7.
+/// The robot's name: the channel prefix without trailing separators, for example ROBOT7 for "ROBOT7_". Without a prefix
+/// it is the name of the odometer.
 std::string robot_of(const LogSummary& summary) {
   std::string name = summary.prefix;
   while (!name.empty() && (name.back() == '_' || name.back() == '/' || name.back() == '.')) name.pop_back();
   return name.empty() ? summary.odometer : name;
 }
 
-/// Empty where rig or settings cannot be read.
+/// The estimator; empty if rig or settings are unreadable.
 std::string estimator_of(const LogSummary& summary) {
   if (summary.rig_toml.empty()) return {};
   const FileResult<Rig> rig = read_rig(summary.rig_toml, "rig.toml");
   const FileResult<Configuration> configuration = read_configuration(summary.configuration_toml, "azimuth.toml");
-  return rig && configuration ? std::string(estimator_name(*rig, *configuration)) : std::string();
+  return rig && configuration ? std::string(name(chosen_estimator(*rig, *configuration))) : std::string();
 }
 
 std::optional<std::array<double, 4>> shares_of(const std::array<double, 4>& health_s) {

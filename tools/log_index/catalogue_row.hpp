@@ -9,25 +9,25 @@
 
 namespace azimuth {
 
-/// What the catalogue says of a log; what nobody knows is left out.
+/// The catalogue entry of a log. Unknown values are empty.
 struct CatalogueRow {
   FoundLog found;
-  std::optional<std::string> start_utc;  ///< such as 2026-11-21T13:05:00Z
+  std::optional<std::string> start_utc;  ///< for example 2026-11-21T13:05:00Z
   std::optional<double> duration_s;
-  std::string robot;                            ///< its channels' prefix or its odometer; empty: it has no name
-  std::string version;                          ///< of the daemon; empty: it does not say
-  std::string estimator;                        ///< empty: without a rig and settings that can be read
-  std::optional<std::array<double, 4>> health;  ///< shares of the time that poses tell of, see Health
-  LogSummary summary;                           ///< all zero where there was nothing to read
-  std::string trouble;                          ///< what is wrong with it, in a few words; empty: nothing
+  std::string robot;                            ///< prefix of the LCM channels, or the odometer; may be empty
+  std::string version;                          ///< version of the daemon; empty if unknown
+  std::string estimator;                        ///< empty if the log has no readable rig and settings
+  std::optional<std::array<double, 4>> health;  ///< shares of the time covered by poses, in the order of Health
+  LogSummary summary;                           ///< all zero for an unreadable log
+  std::string trouble;                          ///< short description of damage; empty if there is none
 
-  /// Something of it is missing: bytes, segments, or events that could not be written.
+  /// True if the log is incomplete: bytes, segments or events are missing.
   bool is_cut() const { return summary.damaged_bytes > 0 || summary.missing_segments > 0 || summary.lost_events > 0; }
 };
 
-/// Of a log that could be read.
+/// The entry of a readable log.
 CatalogueRow row_of(const FoundLog& found, const LogSummary& summary);
-/// Of one that could not.
+/// The entry of an unreadable log.
 CatalogueRow row_of(const FoundLog& found, const FileErrors& errors);
 
 }  // namespace azimuth

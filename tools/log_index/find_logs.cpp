@@ -20,7 +20,7 @@ std::int64_t nanoseconds_of(fs::file_time_type time) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(time.time_since_epoch()).count();
 }
 
-/// A file that vanishes meanwhile, because a recorder makes room, counts as none.
+/// Adds a file to a log. A file that a recorder deletes in the meantime is ignored.
 void add_file(FoundLog& log, std::uint64_t& bytes, const fs::path& file) {
   std::error_code no_size, no_time;
   const std::uintmax_t size = fs::file_size(file, no_size);

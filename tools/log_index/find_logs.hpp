@@ -1,5 +1,5 @@
 #pragma once
-// Which field logs lie in a folder, without one of them being opened.
+// Finds the field logs in a folder without opening them.
 //
 // Thread contract: reentrant.
 
@@ -12,21 +12,21 @@
 
 namespace azimuth {
 
-/// A session folder with its segments, or a log that is one file.
+/// A session folder with segments, or a log in a single file.
 struct FoundLog {
-  std::string path;               ///< relative to the folder that was searched
-  std::uint64_t bytes = 0;        ///< without images in a folder of their own
-  std::uint64_t image_bytes = 0;  ///< of these
-  std::uint64_t files = 0;        ///< segments; 1 of a log that is one file
-  std::int64_t changed_ns = 0;    ///< when the youngest of its files was last written, on the file system's clock
+  std::string path;               ///< relative to the searched folder
+  std::uint64_t bytes = 0;        ///< size without separately stored images
+  std::uint64_t image_bytes = 0;  ///< size of separately stored images
+  std::uint64_t files = 0;        ///< number of segments; 1 for a single file
+  std::int64_t changed_ns = 0;    ///< latest modification time of its files, on the file system's clock
 };
 
 struct FoundLogs {
-  std::vector<FoundLog> logs;  ///< by their paths
-  FileErrors unreadable;       ///< folders that cannot be looked into
+  std::vector<FoundLog> logs;  ///< sorted by path
+  FileErrors unreadable;       ///< folders that could not be searched
 };
 
-/// Every log in the folder and below it. Symbolic links to folders are not followed.
+/// All logs in the folder and its subfolders. Symbolic links to folders are not followed.
 FoundLogs find_logs(const std::filesystem::path& folder);
 
 }  // namespace azimuth

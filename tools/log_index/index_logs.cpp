@@ -12,12 +12,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whatever a log holds, it costs the catalogue no more than its own row.
+/// Reads a log. A failure of any kind affects only the row of this log.
 CatalogueRow read_row(const fs::path& folder, const FoundLog& log) {
   try {
     const FileResult<LogSummary> summary = read_log_summary(folder / log.path);
     return summary ? row_of(log, *summary) : row_of(log, summary.error());
-  } catch (const std::exception& error) {  // memory that there is not, above all
+  } catch (const std::exception& error) {  // mainly std::bad_alloc
     return row_of(log, FileErrors{{log.path, 0, std::string("cannot be read: ") + error.what()}});
   }
 }
@@ -27,7 +27,7 @@ bool lies_in(const std::string& path, const fs::path& folder, const FileError& u
   return inside == unreadable.file || inside.starts_with(unreadable.file + '/');
 }
 
-/// Those that are in the catalogue, and nowhere else.
+/// Logs that are in the catalogue but no longer exist.
 std::vector<std::string> vanished_of(const std::map<std::string, LogState>& known, const FoundLogs& found,
                                      const fs::path& folder) {
   std::vector<std::string> vanished;

@@ -5,8 +5,9 @@
 
 namespace azimuth {
 
-/// The landmarks as a table, one a line: what landmarks.csv of a run folder begins with, then what is known of each,
-/// with the covariance of its own coordinates. Doubles keep every bit; what is not known is empty.
+/// The landmarks as a table with one line each. The first columns are those of landmarks.csv in run folders; further
+/// columns contain the properties of the landmark and the covariance of its coordinates. Numbers are written without
+/// loss. Unknown values are empty.
 std::string map_csv(const MapSnapshot& map);
 
 }  // namespace azimuth

@@ -7,14 +7,14 @@
 
 namespace azimuth {
 
-/// The map as a GeoJSON FeatureCollection: a point for each landmark, with its covariance and the axes of its ellipse
-/// of one standard deviation, and one for the robot's last pose. Ids are texts, a landmark's number or "robot":
-/// programs that find numbers and a text mixed (GDAL) number the robot like a landmark.
+/// The map as a GeoJSON FeatureCollection: a point for each landmark, with its covariance and the axes of its one-sigma
+/// ellipse, and a point for the robot's last pose. All ids are texts, the landmark's id or "robot". If ids were a
+/// mixture of numbers and texts, GDAL would give the robot a number like a landmark.
 ///
-/// With an origin, coordinates are longitude and latitude as RFC 7946 has them: on the ellipsoid's tangent plane at the
-/// origin, which is right to centimetres within some kilometres, longitudes from -180 to 180 degrees. Without one they
-/// are metres in the map's own frame, which the members "crs" (null) and "name" say to other programs, and
-/// "azimuth:frame" in any case.
+/// With an origin, coordinates are longitude and latitude as RFC 7946 requires, computed on the tangent plane of the
+/// ellipsoid at the origin. This is accurate to centimetres within some kilometres. Longitudes are from -180 to 180
+/// degrees. Without an origin, coordinates are metres in the map frame; the members "crs" (null) and "name" tell other
+/// programs so. The member "azimuth:frame" states the frame in both cases.
 std::string map_geojson(const MapSnapshot& map, const std::optional<MapOrigin>& origin);
 
 }  // namespace azimuth

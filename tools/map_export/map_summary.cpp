@@ -26,7 +26,7 @@ std::string names_text(MapNames names) {
   return "?";
 }
 
-/// The larger standard deviation of each landmark in the plane, in ascending order.
+/// The larger standard deviation of each landmark's position in the plane, in ascending order.
 std::vector<double> spreads_m(const MapSnapshot& map) {
   std::vector<double> spreads;
   for_each_landmark(map, [&spreads](const MapLandmark&, const Eigen::Matrix3d& P) {

@@ -5,10 +5,10 @@
 
 namespace azimuth {
 
-/// What a saved map is, for a person.
+/// Description of a saved map as text for the user.
 std::string map_summary(const LoadedMap& loaded);
 
-/// Likewise for a program: one JSON object.
+/// Description of a saved map as one JSON object.
 std::string map_summary_json(const LoadedMap& loaded);
 
 }  // namespace azimuth

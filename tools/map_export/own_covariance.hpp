@@ -7,8 +7,8 @@
 
 namespace azimuth {
 
-/// Calls `use(landmark, covariance)` for each landmark, with the covariance of its own coordinates [m^2]; that of the
-/// height is zero for a landmark without one.
+/// Calls `use(landmark, covariance)` for each landmark, with the covariance of its coordinates [m^2]. The entries of
+/// the height are zero for a landmark without a height.
 template <class Use>
 void for_each_landmark(const MapSnapshot& map, const Use& use) {
   std::size_t first = map.first_landmark_entry();

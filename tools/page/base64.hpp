@@ -5,7 +5,7 @@
 
 namespace azimuth {
 
-/// RFC 4648, with padding. Reentrant.
+/// Base64 encoding of RFC 4648 with padding. Reentrant.
 std::string base64(std::span<const std::byte> bytes);
 
 }  // namespace azimuth

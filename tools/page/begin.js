@@ -1,8 +1,8 @@
-// The page of `azimuth view`: the server says which of the two it is, a robot that drives or a recording.
+// The page of `azimuth view`. The server tells whether it shows a live robot or a recording.
 
 import { element } from './words.js';
 
-/// "live" or "recorded". Throws where nobody answers.
+/// Returns "live" or "recorded"; throws if the server does not answer.
 async function shownHere() {
   const answer = await fetch('health');
   if (!answer.ok) throw new Error((await answer.text()).trim().slice(0, 300) || `the server answers ${answer.status}`);

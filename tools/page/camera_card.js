@@ -1,4 +1,4 @@
-// The newest picture, as large as it fits, and the panorama below it.
+// The card with the newest picture, as large as it fits, and the panorama below it.
 
 import { Panorama } from './panorama.js';
 import { element, number } from './words.js';
@@ -18,7 +18,7 @@ export class CameraCard {
       element('div', { class: 'head' }, element('h2', {}, 'Camera'), this.words), this.frame, this.panorama.node);
   }
 
-  /// One at a time: the newest there is when the last one has come.
+  /// Loads one picture at a time: the newest one when the previous one has arrived.
   update() {
     this.panorama.surface.redraw();
     const { picture } = this.store;

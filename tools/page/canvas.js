@@ -1,10 +1,11 @@
-// A canvas as sharp as the screen, and the colours of the style sheet.
+// A canvas with the resolution of the screen and the colours of the style sheet.
 
-/// Surfaces that are to be drawn, the one that has waited longest first.
+/// Surfaces to draw, in the order of their waiting time.
 const waiting = new Set();
 let mostInAFrame = Infinity, asked = false;
 
-/// Where much is drawn all the time, so that no frame takes long; those that are not in sight wait until they are.
+/// Limits the number of surfaces drawn in a frame, so that no frame takes long. Surfaces that are out of sight wait
+/// until they are visible.
 export function paceSurfaces(surfacesInAFrame) {
   mostInAFrame = surfacesInAFrame;
 }
@@ -27,8 +28,8 @@ function ask() {
 export class Surface {
   #inSight = true;
 
-  /// `draw(context, width, height)` is called, in CSS pixels, whenever the size has changed, and by redraw(). `first`:
-  /// in each frame that it is wanted for, whatever the pace.
+  /// Calls `draw(context, width, height)`, in CSS pixels, after a change of the size and after redraw(). With `first`
+  /// the surface is drawn in the next frame in spite of the limit.
   constructor(canvas, draw, first = false) {
     this.canvas = canvas;
     this.draw = draw;
@@ -46,7 +47,7 @@ export class Surface {
     else waiting.delete(this);
   }
 
-  /// Once a frame, however often it is called.
+  /// Requests a drawing; several calls within a frame give one drawing.
   redraw() {
     if (!this.#inSight) return;
     waiting.add(this);
@@ -80,7 +81,8 @@ function colours(node) {
   return found;
 }
 
-/// A pen that draws to points that are numbers and says so, and is lifted where one is not.
+/// A pen that draws lines between points and is lifted at points that are no numbers. It returns whether the point was
+/// drawn.
 function pen(context) {
   let down = false;
   context.beginPath();
@@ -92,14 +94,15 @@ function pen(context) {
   };
 }
 
-/// A line through the points that are numbers, broken where one is not.
+/// Draws a line through the points; points that are no numbers interrupt it.
 export function strokeLine(context, count, x, y) {
   const drawTo = pen(context);
   for (let i = 0; i < count; ++i) drawTo(x(i), y(i));
   context.stroke();
 }
 
-/// The same for many points whose x never falls: of those in half a pixel the first, the extremes and the last.
+/// The same for many points whose x does not decrease: within half a pixel, only the first, the extremes and the last
+/// are drawn.
 export function strokeDense(context, count, x, y) {
   const column = { at: NaN, low: 0, high: 0, last: 0 }, drawTo = pen(context);
   const leave = () => {

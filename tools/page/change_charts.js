@@ -1,4 +1,4 @@
-// Charts of a comparison: means by tag with their intervals, and the values of runs in order, before and now.
+// Charts of a comparison: mean changes by tag with their intervals, and the values of all runs before and now.
 
 import { Surface } from './canvas.js';
 import { decimalsOf, scale, step, ticks } from './scale.js';
@@ -6,7 +6,7 @@ import { element, number, withUnit } from './words.js';
 
 const rowHeight = 24, labelWidth = 150, edge = 14;
 
-/// A value as people read it, and a change: "+23.0 %", or in the figure's unit; more is worse.
+/// Formats a value, and a change as "+23.0 %" or in the unit of the figure; a positive change is worse.
 export function valueWords(figure, value) {
   if (value === null || value === undefined) return '–';
   return withUnit(number(figure.shown_factor * value, figure.decimals), figure.unit);
@@ -31,7 +31,7 @@ function chartCard(title, words, draw) {
   return { canvas, told, node, surface: new Surface(canvas, draw) };
 }
 
-/// A row for each group: the mean change, and where it lies with 95 %.
+/// A chart with a row for each group: the mean change and its 95 % interval.
 export class IntervalChart {
   constructor(groups) {
     this.groups = groups;
@@ -75,7 +75,7 @@ export class IntervalChart {
   }
 }
 
-/// The values of runs in their order, a column each: now, and before as a tick.
+/// A chart with a column for each run: the value now, and the value before as a tick.
 export class RunsChart {
   constructor(runs) {
     this.runs = runs;

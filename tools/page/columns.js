@@ -1,10 +1,11 @@
-// Columns of numbers that grow, of bounded length, and stay arrays in order for whoever draws them.
+// Growing columns of numbers with a bounded number of rows, stored as contiguous arrays for drawing.
 
 export class Columns {
   #columns = new Map();
   #views = new Map();
 
-  /// `most` rows are kept. `onFull`: "forget" the older half, or "thin" it, so that the whole way stays, more coarsely.
+  /// Keeps at most `most` rows. `onFull` "forget" drops the older half; "thin" thins it out, so that the whole path
+  /// stays.
   constructor(names, most, onFull = 'thin') {
     this.names = names;
     this.most = most;
@@ -14,12 +15,12 @@ export class Columns {
 
   clear() {
     this.length = 0;
-    this.generation = (this.generation ?? 0) + 1;  // changes whenever rows get other numbers
+    this.generation = (this.generation ?? 0) + 1;  // changes whenever the numbering of rows changes
     for (const name of this.names) this.#columns.set(name, new Float64Array(256));
     this.#views.clear();
   }
 
-  /// Of `names` in their order; NaN for what is not known.
+  /// Appends a row with values in the order of `names`; NaN for unknown values.
   push(...values) {
     if (this.length === this.most) this.#makeRoom();
     if (this.length === this.#columns.get(this.names[0]).length) this.#grow();
@@ -28,12 +29,12 @@ export class Columns {
     this.#views.clear();
   }
 
-  /// Numbers of a row that is there.
+  /// Sets a value of an existing row.
   set(name, row, value) {
     this.#columns.get(name)[row] = value;
   }
 
-  /// The rows so far, until there are others.
+  /// The column as an array, valid until the next change of the rows.
   get(name) {
     const known = this.#views.get(name);
     if (known) return known;

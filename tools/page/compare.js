@@ -1,4 +1,4 @@
-// A page of runs compared. Its data are what `azimuth compare --json` writes, in the element #data: docs/compare.md says its members.
+// The page of a comparison. The element #data has the output of `azimuth report compare --json`, see docs/compare.md.
 
 import { IntervalChart, RunsChart, changeWords, valueWords } from './change_charts.js';
 import { element } from './words.js';
@@ -22,7 +22,7 @@ function comparedTiles({ runs, baseline, absent }) {
     tile(absent.failed.length, 'failed'), tile(absent.unreadable.length, 'unreadable'), tile(absent.twice.length, 'twice'));
 }
 
-/// What is not in the tables, by name: nobody must take it for good.
+/// A card with the names of the runs that the tables lack, so that they are not taken for good ones.
 function absentCard({ absent, past_limits }) {
   const lists = [
     ['Past their limits', past_limits],
@@ -85,7 +85,7 @@ function groupsTable({ groups, baseline }, figures) {
       group.tag ?? 'all runs', ' ', element('span', { class: 'faint' }, counted(group.runs, 'run'))), ...cells(group)))))));
 }
 
-/// Fills `page`.
+/// Fills `page` with the comparison.
 export function showComparison(data, page) {
   const figures = data.figures.filter(({ key }) => data.runs.some((run) => run.figures[key]));
   const intervals = new IntervalChart(data.baseline ? data.groups : []), byRun = new RunsChart(data.runs);

@@ -1,4 +1,4 @@
-// What the daemon says of its devices, its log and itself.
+// The card with the daemon's status of its devices, its log and itself.
 
 import { duration, element, number } from './words.js';
 
@@ -8,7 +8,7 @@ const flags = [[1, 'motors on'], [2, 'emergency stop'], [4, 'left wheel stalls']
 const troubleHeads = { input_trouble: 'Input', map_trouble: 'Map file', image_trouble: 'Images', picture_trouble: 'Pictures',
   configuration: 'Configuration' };
 
-/// Counted since the daemon began; those that are zero are left out.
+/// Counters since the start of the daemon; those that are zero are not shown.
 const counters = {
   odometer_reconnects: 'odometer came back', camera_reconnects: 'camera came back',
   odometer_resets: 'odometer’s port reset', camera_resets: 'camera’s port reset',
@@ -21,21 +21,21 @@ const counters = {
   record_losses: 'events not in the field log', deleted: 'landmarks removed', recovered: 'landmarks begun anew',
 };
 
-/// Of words for people: a guess, for the colour of the lamp beside them.
+/// Guesses the state from a text for people; it selects the colour of the lamp beside the text.
 function stateOf(text) {
   if (text === '') return 'none';
   return /^(running|SCHED|replay|playing|writing|\/?[\w./-]+$)/.test(text) ? 'good' : 'bad';
 }
 
-/// A sentence for each device that samples should come from and do not. One that works says so with these words; one that starts is
-/// in trouble if it has worked before.
+/// A sentence for each device that should send samples and does not. The status text of a working device begins with
+/// one of the words below; a device that starts is in trouble only if it has worked before.
 export function deviceTroubles({ devices }) {
   const isWell = ({ text, worked }) => text === '' || /^(running|replay|playing)/.test(text) || (!worked && text.startsWith('starting'));
   return [['odometer', 'Odometer'], ['camera', 'Camera']].map(([key, head]) => [head, devices.get(key)])
     .filter(([, device]) => device && !isWell(device)).map(([head, { text }]) => `${head}: ${text}.`);
 }
 
-/// 12 MB, 1.2 GB.
+/// Formats a size, e.g. 12 MB or 1.2 GB.
 const size = (bytes) => (bytes < 1e9 ? `${number(bytes / 1e6, bytes < 1e7 ? 1 : 0)} MB` : `${number(bytes / 1e9, bytes < 1e10 ? 1 : 0)} GB`);
 
 export class DevicesCard {
@@ -67,7 +67,7 @@ export class DevicesCard {
     }).filter((row) => row !== null);
   }
 
-  /// What lies on the disk.
+  /// The field log and the map file on the disk.
   #kept({ kept }) {
     const { log_bytes, log_quota_bytes, disk_free_bytes, map_age_s } = kept ?? {}, rows = [];
     if (Number.isFinite(log_bytes)) {

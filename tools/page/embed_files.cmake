@@ -1,4 +1,4 @@
-# cmake -DFILES=a;b -DOUT=file.cpp -P embed_files.cmake: the files as they stand, for page_files().
+# cmake -DFILES=a;b -DOUT=file.cpp -P embed_files.cmake: writes a source file with the unchanged files for page_files().
 set(entries "")
 foreach(file IN LISTS FILES)
   file(READ ${file} text)

@@ -1,4 +1,4 @@
-// What became of a bearing: colour, dashes and mark tell it alike, so that none of them is needed to tell two apart.
+// The fate of a bearing. Colour, dashes and mark all encode it, so that each of them alone is enough.
 
 export const fates = {
   used: { words: 'used', colour: 'used', dash: [], mark: 'disc', sign: '●' },
@@ -11,7 +11,7 @@ export const fates = {
 
 export const fateOf = (name) => fates[name] ?? fates.unknown;
 
-/// How many of each, in the order above: [[name, count]].
+/// Counts the bearings of each fate, in the order above: [[name, count]].
 export function countFates(bearings) {
   const counts = new Map(Object.keys(fates).map((name) => [name, 0]));
   for (const bearing of bearings) {
@@ -38,7 +38,7 @@ export function drawMark(context, x, y, { mark, colour }, colours, radius = 4) {
   else context.stroke();
 }
 
-/// The rays of an image, from `pose` ({ x, y, heading }): as far as the landmark where one is known, else to the edge, faded.
+/// Draws the rays of an image from `pose` ({ x, y, heading }): to the landmark if it is known, else faded to the edge.
 export function drawRays(context, view, pose, bearings, landmarks, colours) {
   const far = (view.width + view.height) / view.scale;
   context.lineWidth = 1.3;

@@ -1,4 +1,4 @@
-// How smoothly the page is drawn, by its own clock.
+// Measures the frame times of the page with its own clock.
 
 const kept = 600;
 
@@ -20,7 +20,7 @@ export class FrameMeter {
     this.#times = [];
   }
 
-  /// Of the last frames, in milliseconds from one to the next: { count, median, p95, worst, fps }.
+  /// Statistics of the time between the last frames in milliseconds: { count, median, p95, worst, fps }.
   figures() {
     const sorted = [...this.#times].sort((a, b) => a - b), at = (share) => sorted[Math.floor(share * (sorted.length - 1))] ?? NaN;
     const sum = sorted.reduce((total, ms) => total + ms, 0);

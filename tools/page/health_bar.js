@@ -1,15 +1,16 @@
-// Health over time: colour and height both tell how bad it is, and the list says why.
+// A bar with the health over time. Colour and height show the health; a table has the reasons.
 
 import { Surface } from './canvas.js';
 import { scale, timeTicks } from './scale.js';
 import { chartMargins, clock, drawCursor, steerTime } from './time_chart.js';
 import { duration, element, number } from './words.js';
 
-/// Share of the bar's height that is filled.
+/// Filled share of the bar's height.
 const heights = { starting: 0.25, tracking: 0.4, degraded: 0.7, lost: 1 };
 
 export class HealthBar {
-  /// `stretches`: [{ from, to, health, reason }], one after the other; more may come. `times()`: of the steps.
+  /// `stretches` are consecutive [{ from, to, health, reason }], which may grow. `times()` returns the times of the
+  /// steps.
   constructor(stretches, times, link, shown = stretches.map(({ health }) => health)) {
     this.stretches = stretches;
     this.link = link;
@@ -46,7 +47,7 @@ export class HealthBar {
     const x = scale(link.from, link.to, chartMargins.left, width - chartMargins.right), foot = height - 16;
     context.fillStyle = colours.grid;
     context.fillRect(chartMargins.left, 2, width - chartMargins.left - chartMargins.right, foot - 2);
-    // The worst ones last, so that a short one is not hidden below its neighbours.
+    // The worst health is drawn last, so that its neighbours do not hide a short stretch.
     for (const health of Object.keys(heights)) {
       context.fillStyle = colours[health];
       const top = foot - heights[health] * (foot - 2);
@@ -69,7 +70,7 @@ export class HealthBar {
   }
 }
 
-/// Every stretch in a table; its time moves the cursor there.
+/// A table of all stretches; a click on a time moves the cursor there.
 export function healthTable(stretches, link) {
   const rows = stretches.map(({ from, to, health, reason }) => element('tr', {},
     element('td', { class: 'number' },

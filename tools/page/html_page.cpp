@@ -39,7 +39,7 @@ void add_imports(std::string_view text, Names& names) {
   }
 }
 
-/// What a page is made of: its module and those before it that it imports, they that they import, and so on.
+/// The texts of a module and of all directly or indirectly imported modules, each after its imports.
 std::vector<std::string_view> modules_of(std::string_view module) {
   Names wanted{std::string(module)};
   std::vector<std::string_view> texts;
@@ -53,7 +53,7 @@ std::vector<std::string_view> modules_of(std::string_view module) {
   return texts;
 }
 
-/// As a Content-Security-Policy names it.
+/// The hash source of a script or style for a Content-Security-Policy.
 std::string source_of(std::string_view text) { return "'sha256-" + base64(sha256(text)) + '\''; }
 
 }  // namespace

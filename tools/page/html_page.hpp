@@ -4,19 +4,19 @@
 
 namespace azimuth {
 
-/// One page that needs nothing but itself: the modules of the report and their style, and what they show. `data` is a
-/// JSON object, of whatever text; `module`, which shows it, says its members. The page's policy lets nothing be loaded,
-/// and no script run but its own. Reentrant.
+/// A self-contained HTML page with the script modules, the style sheet and the data. `data` is a JSON object that may
+/// contain any text; `module` displays it and documents its members. The Content-Security-Policy of the page forbids
+/// loading anything and running other scripts. Reentrant.
 std::string html_page(std::string_view title, std::string_view data, std::string_view module = "report.js");
 
-/// Text as it stands between tags.
+/// Escapes text for use between HTML tags.
 std::string html_text(std::string_view text);
 
-/// JSON that may stand within a script's tags: "<", ">" and "&" by their numbers.
+/// Escapes JSON for use inside a script element: "<", ">" and "&" become numeric escapes.
 std::string json_in_html(std::string_view json);
 
-/// A module and those that it needs, one after the other in one: without `import ... from './file.js';` and
-/// `export`, each of which stands at the beginning of a line, an import on one line.
+/// Concatenates a module and the modules it imports into one script, without `import ... from './file.js';` and
+/// `export`. Both must be at the beginning of a line, and an import must be on one line.
 std::string joined_modules(std::string_view module = "report.js");
 
 }  // namespace azimuth

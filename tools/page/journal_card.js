@@ -1,4 +1,4 @@
-// What happened, newest first.
+// The card with the journal, newest entry first.
 
 import { element, number } from './words.js';
 
@@ -26,7 +26,7 @@ export class JournalCard {
     while (this.list.childElementCount > mostShown) this.list.lastElementChild.remove();
   }
 
-  /// Its time leads there, where it is one of the drive's.
+  /// A line of the journal; a time within the drive is a link to this moment.
   #line({ t, text, level, at }) {
     const words = Number.isFinite(t) ? `${number(t, 1)} s` : at.toLocaleTimeString('en-GB');
     const when = Number.isFinite(t) ? element('button', { type: 'button', class: 'number',

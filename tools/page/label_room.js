@@ -1,4 +1,4 @@
-// Room for labels on a canvas, so that none stands upon another, nor upon what it must not hide.
+// Places labels on a canvas without overlap with each other or with reserved areas.
 
 const cell_px = 24;
 
@@ -10,7 +10,7 @@ export class LabelRoom {
       for (let j = Math.floor(box.top / cell_px); j <= Math.floor(box.bottom / cell_px); ++j) yield `${i},${j}`;
   }
 
-  /// `left`, `top`, `width`, `height` in pixels.
+  /// Reserves a rectangle; all values are in pixels.
   take(left, top, width, height) {
     const box = { left, top, right: left + width, bottom: top + height };
     for (const cell of this.#around(box)) {
@@ -27,14 +27,15 @@ export class LabelRoom {
     return true;
   }
 
-  /// Of several places of one size the first that is free, which is then taken; null: none is.
+  /// Reserves the first free one of several places of equal size; null if none is free.
   first(candidates, width, height) {
     const found = candidates.find(([left, top]) => this.isFree(left, top, width, height));
     if (found) this.take(...found, width, height);
     return found ?? null;
   }
 
-  /// Beside a mark of that radius: left and top of the label, or null. The best place is to the right and a little up.
+  /// Reserves a place beside a mark of this radius and returns left and top of the label, or null. The first choice is
+  /// to the right and slightly above.
   beside(x, y, radius, width, height) {
     const right = x + radius, left = x - radius - width, middle = x - width / 2, above = y - radius - height, below = y + radius;
     return this.first([[right, y - height + 2], [right, y - 2], [left, y - height + 2], [left, y - 2], [middle, above],

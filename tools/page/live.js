@@ -1,6 +1,6 @@
-// A window on a robot that drives: what `azimuth view` sends, on one page.
+// The page of a live robot, which shows the events of `azimuth view`.
 //
-// For tests and for who opens the browser's tools, `window.azimuthView` has the store, the map, the link and the frame times.
+// `window.azimuthView` gives tests and the browser's developer tools the store, the map, the link and the frame times.
 
 import { CameraCard } from './camera_card.js';
 import { paceSurfaces } from './canvas.js';
@@ -18,10 +18,10 @@ import { momentWanted } from './map_export.js';
 import { MapTools } from './map_tools.js';
 import { element, number } from './words.js';
 
-/// Charts drawn in a frame beside the map, and how often words change.
+/// Number of charts drawn in a frame beside the map, interval of text updates, and duration of a message.
 const chartsInAFrame = 1, wordsEvery_ms = 200, saidFor_ms = 6000;
 
-/// What stands in place of a map as long as no robot was heard.
+/// The hints that replace the map while no robot has been received.
 function emptyMap() {
   const line = (words, ...commands) => [element('p', {}, words), ...commands.map((command) => element('code', {}, command))];
   return element('div', { class: 'empty', role: 'note', hidden: true }, element('h2', {}, 'No robot yet'),
@@ -31,7 +31,7 @@ function emptyMap() {
       'azimuth doctor'));
 }
 
-/// A heading for who does not look.
+/// A heading for screen readers.
 const unseen = (words) => element('h2', { class: 'unseen' }, words);
 
 class LivePage {
@@ -118,7 +118,7 @@ class LivePage {
     this.map.surface.redraw();
   }
 
-  /// From where a pose was sent to where it is seen, both having one clock.
+  /// Measures the time from sending a pose to drawing it; both ends must have the same clock.
   #tellDelay() {
     const { pose } = this.store;
     if (!pose || pose === this.#drawnPose || !Number.isFinite(pose.sent_us)) return;
@@ -127,7 +127,7 @@ class LivePage {
     if (this.#delays_ms.length > 300) this.#delays_ms.shift();
   }
 
-  /// The median of the last ones, in milliseconds; NaN before there are any.
+  /// The median of the last delays in milliseconds; NaN without a delay.
   get delay_ms() {
     const sorted = [...this.#delays_ms].sort((a, b) => a - b);
     return sorted[sorted.length >> 1] ?? NaN;
@@ -141,7 +141,7 @@ class LivePage {
     this.map.view.scale = null;
   }
 
-  /// To the moment that the address names, once it is known.
+  /// Moves the cursor to the moment in the page's address when its data have arrived.
   #seek() {
     if (this.wanted === null || !(this.wanted <= this.store.now)) return;
     this.link.grow(this.store.now);
@@ -156,7 +156,7 @@ class LivePage {
     this.head.tell(state, words);
   }
 
-  /// Said once, for a while.
+  /// Shows a message for a short time.
   say(words) {
     this.said.textContent = words;
     this.#said_ms = performance.now();
@@ -195,7 +195,7 @@ class LivePage {
   }
 }
 
-/// Fills the element, and the page round it.
+/// Fills the element and sets up the page.
 export function showLive(root) {
   document.title = 'Azimuth, live';
   document.body.className = 'live';

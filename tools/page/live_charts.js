@@ -1,8 +1,8 @@
-// Charts of a robot that drives: columns of the store, which go on while they are shown.
+// Charts of a live robot, drawn from the growing columns of the store.
 
 import { TimeChart } from './time_chart.js';
 
-/// Parts of a specification read the columns anew each time that they are drawn.
+/// A part of a chart specification that reads the column at each drawing.
 function line(columns, name, words, colour, more = {}) {
   return { get line() { return columns.get(name); }, words, colour, ...more };
 }
@@ -35,7 +35,7 @@ export function liveCharts(store, link) {
   return specs.map((one) => new TimeChart(one, link));
 }
 
-/// Charts of what nobody has measured yet stay away.
+/// Hides charts without measurements.
 export function showMeasured(charts) {
   for (const { spec: { parts }, node } of charts) {
     const columns = parts.map((part) => part.line ?? part.counts).filter((column) => column !== undefined);

@@ -1,6 +1,7 @@
-// The stream of events from `azimuth view`: opened, watched, opened again.
+// Opens the stream of events from `azimuth view`, supervises it and reopens it.
 
-/// There is a beat at least every 500 ms: without any event for so long something is wrong; tried again after so long.
+/// The server sends an event at least every 500 ms. A longer silence is a fault; the second value is the retry
+/// interval.
 const silentAfter_ms = 1300, again_ms = 1000;
 
 const eventKinds = ['hello', 'trail', 'truth_trail', 'pose', 'truth', 'map', 'path', 'bearings', 'status', 'picture',
@@ -11,7 +12,8 @@ export class LiveFeed {
   #source = null;
   #heard_ms = performance.now();
 
-  /// `take(kind, data)`: an event; `tell(state, words)`: how the stream is: "connecting", "open", "silent", "gone", "refused".
+  /// `take(kind, data)` receives events. `tell(state, words)` receives the state of the stream: "connecting", "open",
+  /// "silent", "gone" or "refused".
   constructor(address, take, tell) {
     this.address = address;
     this.take = take;
@@ -53,7 +55,7 @@ export class LiveFeed {
       this.tell('silent', `Nothing has come from azimuth view for ${Math.round(quiet_ms / 1000)} s.`);
   }
 
-  /// Why, as far as the server says it, and then again.
+  /// Asks the server for the reason of the failure and schedules the next attempt.
   async #lose() {
     const refused = this.#source.readyState === EventSource.CLOSED;
     this.#source.close();
@@ -70,7 +72,7 @@ export class LiveFeed {
       const words = (await answer.text()).trim().slice(0, 200);
       this.tell('refused', words || `azimuth view refuses: ${answer.status}`);
     } catch {
-      // The next attempt tells.
+      // The next attempt shows whether the server is back.
     }
   }
 }

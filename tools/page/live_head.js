@@ -1,4 +1,4 @@
-// The line on top: how the robot is, where it is, and whether anything comes.
+// The head line: health and pose of the robot, and state of the connection.
 
 import { healths } from './live_store.js';
 import { duration, element, number } from './words.js';
@@ -6,10 +6,10 @@ import { duration, element, number } from './words.js';
 const connections = { connecting: ['…', 'Connecting'], open: ['●', 'Live'], silent: ['◌', 'Silent'],
   gone: ['✕', 'Not connected'], refused: ['✕', 'Refused'], troubled: ['◌', 'Connected'] };
 
-/// A pose that is older is told in another colour: there are several a second.
+/// An older pose is shown in another colour; normally there are several poses per second.
 const old_s = 1.5;
 
-/// What there is to say of the robot beside its place.
+/// Further facts of the robot beside its pose.
 function factsOf(store) {
   const { robot, speed_m_per_s: speed, status } = store, facts = [];
   if (robot !== '') facts.push(robot);
@@ -36,14 +36,14 @@ export class LiveHead {
     this.tell('connecting', '');
   }
 
-  /// How the stream is, and what there is to say about it.
+  /// Receives the state of the stream with a description.
   tell(state, words) {
     this.state = state;
     this.words = words;
     this.#warn();
   }
 
-  /// What is wrong behind a stream that comes as it should.
+  /// Receives a trouble of the robot while the stream itself works.
   trouble(words) {
     this.troubles = words;
     this.#warn();
@@ -56,7 +56,7 @@ export class LiveHead {
     this.#connect(this.state === 'open' && words !== '' ? 'troubled' : this.state);
   }
 
-  /// A stream without what the robot senses is not live.
+  /// Shows the connection; a stream without sensor data does not count as live.
   #connect(shown) {
     if (this.shown === shown) return;
     this.shown = shown;

@@ -1,8 +1,8 @@
-// Time that goes on: the cursor stays with now until somebody looks back.
+// The time link of a live page: the cursor follows the present until the user looks back.
 
 import { TimeLink } from './time_link.js';
 
-/// At first as much is shown, in seconds.
+/// Initial and smallest length of the shown time range, in seconds.
 const firstWindow = 120, shortest = 2;
 
 export class LiveLink extends TimeLink {
@@ -13,12 +13,12 @@ export class LiveLink extends TimeLink {
 
   clear() {
     this.following = true;
-    this.window = firstWindow;  // null: all of it
+    this.window = firstWindow;  // null: the whole time
     this.begin = Infinity, this.end = -Infinity;
     this.from = 0, this.to = firstWindow, this.cursor = 0;
   }
 
-  /// A chart under a resting mouse is not to stop the cursor.
+  /// Pointing does not move the cursor, because a resting mouse would stop it.
   get hovers() {
     return false;
   }
@@ -33,7 +33,7 @@ export class LiveLink extends TimeLink {
     else this.changed();
   }
 
-  /// Back to now.
+  /// Returns to the present.
   follow() {
     this.following = true;
     this.#slide();

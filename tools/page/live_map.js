@@ -1,4 +1,4 @@
-// The map while the robot drives: what has been is kept as pictures, what is new is drawn upon them.
+// The map of a live robot: older parts are cached as pictures, and new parts are drawn on top.
 
 import { Surface } from './canvas.js';
 import { cameraAt } from './expectations.js';
@@ -12,12 +12,12 @@ import { healthStyles, trailPainter } from './trail_layer.js';
 import { Viewpoint } from './viewpoint.js';
 import { element, number } from './words.js';
 
-/// Each with its switch: key, words, class of its swatch.
+/// Layers with their switches: key, words, class of the swatch.
 export const liveLayers = [['estimate', 'estimate', 's-estimate'], ['truth', 'truth', 's-truth'],
   ['odometry', 'odometry alone', 's-odometry'],
   ['hindsight', 'in hindsight', 's-hindsight'], ['landmarks', 'landmarks, 2σ', 's-landmarks'], ['rays', 'rays', 's-used']];
 
-/// As map_layers.js has them: landmarks known for a while, new ones, those in doubt; and lamps.
+/// Kinds of landmarks for map_layers.js: confirmed, new and doubted ones, and lamps.
 const kinds = [{ name: 'confirmed', colour: '#009e73', marker: 'disc' }, { name: 'new', colour: '#cc79a7', marker: 'diamond' },
   { name: 'doubted', colour: '#d55e00', marker: 'wedge' }];
 const lamp = { name: 'lamp', colour: '#d99a00', marker: 'square' };
@@ -25,12 +25,13 @@ const lamp = { name: 'lamp', colour: '#d99a00', marker: 'square' };
 const glide_ms = 300, lookAgain_ms = 700;
 
 export class LiveMap {
-  /// `moded(mode)` is told how the view moves: "all" that there is in sight, "follow" the robot, "free" as a person left it.
+  /// `moded(mode)` receives the mode of the view: "all" shows everything, "follow" follows the robot, "free" is set by
+  /// the user.
   constructor(store, link, moded = () => {}) {
     this.store = store;
     this.link = link;
     this.moded = moded;
-    this.drawn = () => {};  // told after each frame
+    this.drawn = () => {};  // called after each frame
     this.mode = 'all';
     this.view = new Viewpoint();
     this.ruler = new Ruler();
@@ -81,7 +82,7 @@ export class LiveMap {
     });
   }
 
-  /// What is known of the landmark that is pointed at.
+  /// The tooltip of the landmark at the pointer.
   #landmarkAt(x, y) {
     const { map: { landmarks }, now } = this.store, nearest = nearestLandmark(landmarks, x, y, this.view.scale);
     if (nearest === null || !this.shown.has('landmarks')) return '';
@@ -105,7 +106,7 @@ export class LiveMap {
     return this.shown.has(key);
   }
 
-  /// Where the robot is at the cursor: { x, y, heading, covariance, health }, or null.
+  /// The pose at the cursor: { x, y, heading, covariance, health }, or null.
   poseAt(seconds) {
     const { poses } = this.store;
     if (poses.length === 0) return null;
@@ -129,7 +130,7 @@ export class LiveMap {
     return box[0] <= box[2] ? box : [-3, -3, 3, 3];
   }
 
-  /// Everything in sight, moved only when it has outgrown the view or become small in it.
+  /// Keeps everything in sight. The view only moves when the content exceeds it or has become small in it.
   #keepAll(now_ms) {
     if (now_ms - (this.looked_ms ?? 0) < lookAgain_ms && this.view.scale) return;
     this.looked_ms = now_ms;
@@ -167,7 +168,7 @@ export class LiveMap {
     this.drawn();
   }
 
-  /// The same on any context, at once.
+  /// Draws the same content on any context, in one go.
   paint(context, width, height) {
     const view = this.view.copy(), { colours } = this.surface;
     view.width = width, view.height = height;

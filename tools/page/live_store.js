@@ -1,11 +1,11 @@
-// What is known of the robot from the events of `azimuth view`. Events that are not as agreed are counted and left out.
+// The data of the robot from the events of `azimuth view`. Malformed events are counted and ignored.
 
 import { Columns } from './columns.js';
 import { cameraAt, expectations } from './expectations.js';
 
 export const healths = ['starting', 'tracking', 'degraded', 'lost'];
 
-/// Kept at most: rows of the way, of statuses, stretches of health, lines of the journal.
+/// Limits: rows of the path, rows of statuses, stretches of health, lines of the journal.
 const most = { poses: 100000, statuses: 20000, stretches: 2000, lines: 500 };
 
 const figures = ['t', 'accepted', 'rejected', 'created', 'thinned', 'latency_ms', 'detect_ms', 'pose_hz', 'odometry_hz',
@@ -17,20 +17,21 @@ const list = (value) => {
   return value;
 };
 
-/// Where 95 % of chi-square over its degrees of freedom is (Wilson and Hilferty).
+/// The 95 % interval of chi-squared divided by its degrees of freedom (Wilson and Hilferty).
 export function meanBounds(degrees) {
   const spread = 2 / (9 * degrees), side = 1.96 * Math.sqrt(spread);
   return [Math.max(0, 1 - spread - side) ** 3, (1 - spread + side) ** 3];
 }
 
-/// Of a few dozen landmarks ids may have three digits, as those that did not stay had some too: people get a number that counts
-/// those of the map in the order of their ids. Names that the sensor gives stay as they are, and so does what stands beside them.
+/// Numbers for people. Ids may have three digits even in a small map, because deleted landmarks used up ids, so the
+/// page numbers the landmarks of the map in the order of their ids. If the sensor gives identities, all ids stay
+/// unchanged.
 export function numbersOf(ids, haveNames) {
   if (haveNames) return new Map(ids.map((id) => [id, `${id}`]));
   return new Map([...ids].sort((a, b) => a - b).map((id, i) => [id, `${i + 1}`]));
 }
 
-/// A lamp's height beside its number.
+/// The number of a landmark, with the height of a lamp.
 function nameOf(id, z, sigma_z) {
   if (!finite(z)) return `${id}`;
   return `${id}: ${z.toFixed(2)}${finite(sigma_z) ? ` ± ${sigma_z.toFixed(2)}` : ''} m`;
@@ -50,7 +51,7 @@ export class LiveStore {
     this.clear();
   }
 
-  /// Everything but the journal, which goes on.
+  /// Clears everything except the journal.
   clear() {
     for (const columns of [this.poses, this.truth, this.figures]) columns.clear();
     this.stretches.length = 0;
@@ -66,14 +67,14 @@ export class LiveStore {
       this.figures.length > 0 ? this.figures.last('t') : -Infinity);
   }
 
-  /// How old the newest pose is, as far as that is known: since it came here, and before that on its way. NaN: there is none.
+  /// Age of the newest pose: the time since its arrival plus the known latency before. NaN without a pose.
   get poseAge_s() {
     if (!this.pose || !finite(this.poseHeard_ms)) return NaN;
     const onItsWay_s = this.status?.latency_s;
     return (performance.now() - this.poseHeard_ms) / 1e3 + (finite(onItsWay_s) ? Math.max(0, onItsWay_s) : 0);
   }
 
-  /// By odometry, over the last second: an estimate that is corrected jumps. NaN: too little is known.
+  /// Speed from odometry over the last second, because corrections make the estimate jump. NaN if unknown.
   get speed_m_per_s() {
     const { poses } = this, t = poses.get('t'), xs = poses.get('odom_x'), ys = poses.get('odom_y'), last = t.length - 1;
     let first = last;
@@ -81,17 +82,17 @@ export class LiveStore {
     return first >= 0 && t[last] - t[first] > 0.3 ? Math.hypot(xs[last] - xs[first], ys[last] - ys[first]) / (t[last] - t[first]) : NaN;
   }
 
-  /// What the odometer calls its robot: what stands in brackets behind "running".
+  /// The robot's name from the odometer's status, which has it in brackets after "running".
   get robot() {
     return /^running \((.+)\)$/.exec(this.status?.odometer ?? '')?.[1] ?? '';
   }
 
-  /// Whether anything of a robot has come.
+  /// True if no data of a robot have arrived.
   get isEmpty() {
     return this.poses.length === 0 && this.status === null && this.map.landmarks.length === 0;
   }
 
-  /// Whether it was understood.
+  /// Takes an event; returns whether it was well-formed.
   take(kind, data) {
     try {
       if (data === null || typeof data !== 'object') throw new TypeError('an object was expected');
@@ -126,7 +127,8 @@ export class LiveStore {
       this.pose = data, this.health = data.health, this.poseHeard_ms = performance.now();
   }
 
-  /// Those before the newest are left out: steps that end after a prediction was sent.
+  /// Appends a pose. Poses older than the newest are ignored: they are steps that ended after a later prediction was
+  /// sent.
   #add(t, x, y, heading, health, odom, [xx, xy, yy], sigma_heading_rad) {
     if (!finite(t, x, y) || t <= (this.poses.length > 0 ? this.poses.last('t') : -Infinity)) return;
     const [odomX, odomY] = this.#laidOverMap(odom, x, y, heading);
@@ -136,7 +138,7 @@ export class LiveStore {
     this.#healthIs(t, healths[health] ?? 'starting');
   }
 
-  /// Odometry alone, as if it had gone on from the first pose.
+  /// Dead reckoning from the first pose on, in the map frame.
   #laidOverMap([ox, oy, turn], x, y, heading) {
     if (!finite(ox, oy)) return [NaN, NaN];
     if (!this.T_map_odom) {
@@ -180,7 +182,7 @@ export class LiveStore {
     this.path = list(data.points).filter((point) => finite(point[1], point[2]));
   }
 
-  /// Where the daemon does not say what it expected, the map and the pose do, unless the robot is lost.
+  /// If the daemon does not send its expected bearings, they are computed from map and pose, unless the robot is lost.
   take_bearings({ t, bearings, expected }) {
     if (!finite(t) || !list(bearings).every(Array.isArray)
       || !list(expected).every(Array.isArray)) throw new TypeError('numbers were expected');
@@ -194,7 +196,7 @@ export class LiveStore {
   }
 
   take_status(data) {
-    const t = finite(data.t) ? data.t : this.now;  // not finite before there is anything that has a time
+    const t = finite(data.t) ? data.t : this.now;  // not finite before the first event with a time
     if (!finite(data.health)) throw new TypeError('a number was expected');
     const { rates = {}, nis = null } = data;
     const [low, high] = nis && nis.degrees > 0 ? meanBounds(nis.degrees) : [NaN, NaN];
@@ -206,7 +208,7 @@ export class LiveStore {
     for (const device of ['odometer', 'camera', 'recorder', 'realtime']) this.#deviceIs(device, `${data[device] ?? ''}`, finite(t) ? t : 0);
     if (finite(t)) this.#healthIs(t, healths[data.health] ?? 'starting', `${data.reason ?? ''}`);
     this.status = data;
-    this.health = data.health;  // also when no pose comes any more
+    this.health = data.health;  // valid even if no further pose arrives
   }
 
   #deviceIs(name, text, t) {
@@ -220,7 +222,7 @@ export class LiveStore {
     this.picture = data;
   }
 
-  /// A stream that begins anew tells again what was told before.
+  /// Takes a journal line; a new stream repeats the older lines.
   take_journal({ t, text, level, sent_us }) {
     if (typeof text !== 'string') throw new TypeError('a text was expected');
     const key = finite(sent_us) ? `${sent_us} ${text}` : null;
@@ -233,7 +235,7 @@ export class LiveStore {
     if (this.journal.length > most.lines) this.journal.shift();
   }
 
-  /// Somebody is there.
+  /// A sign of life of the server.
   take_beat() {}
 
   take_silence({ since_s, trouble = '' }) {

@@ -1,9 +1,9 @@
-// A part of the map that is drawn once and shown many times: moved with the view, drawn anew bit by bit when that no longer
-// will do.
+// Caches a part of the map as a picture, which moves with the view. When it no longer fits, a new one is drawn in
+// steps.
 
 import { Viewpoint } from './viewpoint.js';
 
-/// Pixels beyond each side of the view, as a share of it, at most.
+/// Margin on each side of the view: share of its size, and largest number of pixels.
 const share = 0.25, mostMargin = 300;
 
 const appendEvery_ms = 300;
@@ -26,7 +26,7 @@ class Picture {
     this.context.font = font;
   }
 
-  /// Whether all of `view` is in it, with so many pixels to spare.
+  /// True if the picture covers `view` with `spare` further pixels.
   covers(view, spare = 0.4 * this.margin) {
     return [[0, 0], [view.width, 0], [0, view.height], [view.width, view.height]].every(([x, y]) => {
       const point = view.toMap(x, y), px = this.view.px(...point), py = this.view.py(...point);
@@ -34,7 +34,7 @@ class Picture {
     });
   }
 
-  /// Laid where it belongs in `view`, on whole pixels where neither is turned or scaled against the other.
+  /// Draws the picture at its place in `view`; on whole pixels if it is neither rotated nor scaled against the view.
   show(context, view) {
     const { ratio } = this, k = view.scale / this.view.scale, by = view.turn - this.view.turn;
     const [x, y] = [view.px(...this.view.centre), view.py(...this.view.centre)];
@@ -43,7 +43,7 @@ class Picture {
       context.setTransform(1, 0, 0, 1, 0, 0);
       context.drawImage(this.canvas, Math.round((x - this.view.width / 2) * ratio), Math.round((y - this.view.height / 2) * ratio));
     } else {
-      context.imageSmoothingEnabled = false;  // for some frames, until a sharp one is there
+      context.imageSmoothingEnabled = false;  // for a few frames, until a sharp picture is ready
       context.translate(x, y);
       context.rotate(-by);
       context.scale(k, k);
@@ -57,19 +57,21 @@ export class MapCache {
   #front = new Picture();
   #back = new Picture();
   #job = null;
-  #shown = null;  // what the front is a picture of; null: of nothing yet
+  #shown = null;  // key of the front picture; null: none yet
   #appended_ms = 0;
-  #drawn = null;  // what the back will be of
+  #drawn = null;  // key of the picture being drawn
 
-  /// `paint(context, view, colours)`: a generator that yields where a frame may end and returns what `append` goes on from;
-  /// `append(context, view, colours, from)`: paints what has come since, and returns as `paint` does.
+  /// `paint(context, view, colours)` is a generator that yields where a frame may end, and returns the state at its
+  /// end. `append(context, view, colours, from)` paints everything newer than the state `from`, and returns the new
+  /// state.
   constructor(paint, append = (context, view, colours, from) => from) {
     this.paint = paint;
     this.append = append;
   }
 
-  /// Shows it in `view`. `key`: names what is to be painted; another key, another picture. True: a better one is on its way,
-  /// and the next frame is to draw again. What has begun is finished, so that a view that never rests sees something.
+  /// Shows the picture in `view`. `key` names its content; another key causes a new picture. Returns true if a better
+  /// picture is in work and the next frame must draw again. A started picture is always finished, so that a moving view
+  /// shows one.
   draw(context, view, ratio, colours, key) {
     if (!this.#job && !this.#fits(view, ratio, key)) this.#begin(view, ratio, colours, key);
     if (this.#job) this.#goOn();
@@ -77,7 +79,7 @@ export class MapCache {
     return this.#job !== null || !this.#fits(view, ratio, key);
   }
 
-  /// What came since goes upon the picture only now and then: one that was shown is copied when it is drawn on.
+  /// New parts are added to the picture only from time to time, because drawing on a shown picture copies it.
   #show(context, view, colours) {
     const now_ms = performance.now();
     if (now_ms - this.#appended_ms > appendEvery_ms) {

@@ -1,4 +1,4 @@
-// What a map shows, as a file: a picture, a drawing, or places in metres.
+// Saves the shown map as a file: PNG, SVG or GeoJSON in metres.
 
 import { SvgContext } from './svg_context.js';
 import { element } from './words.js';
@@ -11,14 +11,14 @@ function save(blob, name) {
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
-/// `paint(context, width, height)` of `map` draws what is shown; its surface has size and colours.
+/// Draws with `paint(context, width, height)` of `map`, whose surface has the size and the colours.
 export function mapAsSvg(map) {
   const { clientWidth: width, clientHeight: height } = map.canvas, context = new SvgContext(width, height);
   map.paint(context, width, height);
   return context.text(map.surface.colours.card);
 }
 
-/// Twice as fine as the screen.
+/// Twice the resolution of the screen.
 export function mapAsPng(map) {
   const { clientWidth: width, clientHeight: height } = map.canvas, canvas = document.createElement('canvas');
   canvas.width = 2 * width, canvas.height = 2 * height;
@@ -33,8 +33,8 @@ export function mapAsPng(map) {
 
 const feature = (type, coordinates, properties) => ({ type: 'Feature', properties, geometry: { type, coordinates } });
 
-/// In metres of the map, said as `azimuth export` says it. `ways`: [{ name, points: [[x, y], ...] }]; `landmarks`: [{ id, name,
-/// at, covariance, state }].
+/// In metres of the map frame, in the format of `azimuth export`. `ways` is [{ name, points: [[x, y], ...] }];
+/// `landmarks` is [{ id, name, at, covariance, state }].
 export function mapAsGeoJson(ways, landmarks) {
   const lines = ways.filter(({ points }) => points.length > 1)
     .map(({ name, points }) => feature('LineString', points, { what: name }));
@@ -44,18 +44,18 @@ export function mapAsGeoJson(ways, landmarks) {
     'azimuth:frame': { coordinates: 'map', unit: 'm' }, features: [...lines, ...points] });
 }
 
-/// The address of the moment that is shown.
+/// The page address with the shown moment.
 export function momentAddress(seconds) {
   return `${location.origin}${location.pathname}#t=${seconds.toFixed(3)}`;
 }
 
-/// The moment that the page's address names, or null.
+/// The moment in the page's address, or null.
 export function momentWanted() {
   const found = /[#&]t=(-?\d+(?:\.\d+)?)/.exec(location.hash);
   return found ? Number(found[1]) : null;
 }
 
-/// A menu that saves. `geoJson()`: the text; `seconds()`: the moment; `tell(words)`: for people.
+/// A menu for saving. `geoJson()` returns the text, `seconds()` the moment; `tell(words)` shows a message.
 export function exportMenu(map, geoJson, seconds, tell) {
   const stem = () => `azimuth-${seconds().toFixed(1)}s`;
   const item = (words, onclick) => element('button', { type: 'button', onclick: () => { menu.open = false; onclick(); } }, words);

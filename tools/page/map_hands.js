@@ -1,10 +1,10 @@
-// A viewpoint moved by mouse, touch, pen and keys.
+// Moves a viewpoint by mouse, touch, pen and keys.
 
 const turnStep = Math.PI / 12;
 
-/// Drag, wheel, two fingers, keys on `canvas` change `view`; `moved()` is told. `given.fit()`: double click and 0;
-/// `given.point(x, y)`: where the pointer is, in metres, without numbers when it has left; `given.press(x, y, phase)`,
-/// where there is one and it returns true: takes the pointer from the view, phase "down", "move" or "up".
+/// Dragging, wheel, two fingers and keys on `canvas` change `view` and call `moved()`. Double click and 0 call
+/// `given.fit()`. `given.point(x, y)` receives the pointer in metres, or nothing when it has left. The optional
+/// `given.press(x, y, phase)` with phase "down", "move" or "up" takes the pointer from the view by returning true.
 export function steerMap(canvas, view, moved, given) {
   const pointers = new Map();
   let taken = false;

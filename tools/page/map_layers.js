@@ -1,11 +1,11 @@
-// What a map is drawn of. `view`: a Viewpoint; all are in the map frame.
+// Functions that draw the parts of a map. `view` is a Viewpoint; all coordinates are in the map frame.
 
 import { strokeLine } from './canvas.js';
 import { LabelRoom } from './label_room.js';
 import { number } from './words.js';
 import { decimalsOf, step } from './scale.js';
 
-/// Metres, with lines at round ones and a bar that tells their distance.
+/// Draws a grid at round numbers of metres with a scale bar.
 export function drawGrid(context, view, colours) {
   const by = step(view.width / view.scale, view.width / 90);
   const [left, low, right, high] = view.bounds();
@@ -23,7 +23,7 @@ export function drawGrid(context, view, colours) {
   context.fillText(`${number(by, decimalsOf(by))} m`, 17, y - 6);
 }
 
-/// On whole pixels where it is upright or level, so that it is sharp.
+/// Vertical and horizontal lines lie on whole pixels, so that they are sharp.
 function gridLine(context, view, colours, isAxis, from, to) {
   const sharp = (place) => (view.turn === 0 ? Math.round(place) + 0.5 : place);
   context.strokeStyle = isAxis ? colours.axis : colours.grid;
@@ -33,7 +33,7 @@ function gridLine(context, view, colours, isAxis, from, to) {
   context.stroke();
 }
 
-/// Rows `from` to `to` of two columns.
+/// Draws rows `from` to `to` of two columns as a line.
 export function drawPath(context, view, xs, ys, from, to, colour, width, dash = []) {
   context.strokeStyle = colour;
   context.lineWidth = width;
@@ -45,7 +45,7 @@ export function drawPath(context, view, xs, ys, from, to, colour, width, dash = 
   context.setLineDash([]);
 }
 
-/// The outline of two standard deviations. `covariance`: [xx, xy, yy] in square metres.
+/// The ellipse of two standard deviations. `covariance` is [xx, xy, yy] in m^2.
 export function ellipse(context, view, x, y, covariance) {
   const [xx, xy, yy] = covariance;
   const middle = (xx + yy) / 2, apart = Math.hypot((xx - yy) / 2, xy);
@@ -60,7 +60,7 @@ export function ellipse(context, view, x, y, covariance) {
 
 const nearEnough_px = 12;
 
-/// The one that is pointed at, or null.
+/// The landmark at the pointer, or null.
 export function nearestLandmark(landmarks, x, y, scale) {
   if (landmarks.length === 0) return null;
   const off = ({ at }) => Math.hypot(at[0] - x, at[1] - y) * scale;
@@ -68,12 +68,12 @@ export function nearestLandmark(landmarks, x, y, scale) {
   return off(nearest) <= nearEnough_px ? nearest : null;
 }
 
-/// Its number on the page, and its id where that is another: files and LCM have that.
+/// The number of the landmark on the page, and its id in files and LCM if that differs.
 export function landmarkWords(word, name, id) {
   return `${word} ${name}${id === null || id === undefined || name === `${id}` ? '' : ` (id ${id})`}`;
 }
 
-/// How many, and where the first one is.
+/// Number of corners of a marker, and direction of the first one.
 const corners = { square: [4, Math.PI / 4], triangle: [3, -Math.PI / 2], diamond: [4, 0], pentagon: [5, -Math.PI / 2],
   wedge: [3, Math.PI / 2] };
 
@@ -88,12 +88,12 @@ function marker(context, x, y, shape, radius) {
   context.closePath();
 }
 
-/// Landmarks in a frame where they are drawn bit by bit. From so many on they are small, and fewer names have room; from
-/// `crowd` on they are specks.
+/// Landmarks per frame when they are drawn in steps. From `many` landmarks on, markers are small and fewer have names;
+/// from `crowd` on, they are dots.
 const landmarksInAFrame = 500, many = 300, crowd = 1000;
 
-/// Ellipses below, then markers, then names where there is room. Those that are not settled are hollow. A generator that
-/// yields where a frame may end.
+/// Draws ellipses, then markers, then names where there is room. Landmarks that are not settled are hollow. A generator
+/// that yields where a frame may end.
 export function* paintLandmarks(context, view, map, colours) {
   const seen = map.landmarks.filter(({ at }) => view.sees(...at)), isCrowd = seen.length >= crowd;
   const largest = 0.35 * Math.min(view.width, view.height);
@@ -108,7 +108,7 @@ export function* paintLandmarks(context, view, map, colours) {
   drawNames(context, view, seen, colours, seen.length > many ? 7 : 1);
 }
 
-/// One that is as large as the map tells nothing; one that is smaller than its marker is not seen.
+/// Draws an ellipse, unless it is as large as the map or hidden by its marker.
 function paintSpread(context, view, { at, covariance }, colour, largest, isCrowd) {
   const reach = 2 * Math.sqrt(Math.max(covariance[0], covariance[2])) * view.scale;
   if (!(reach < largest && reach > 1.5) || !ellipse(context, view, at[0], at[1], covariance)) return;
@@ -141,7 +141,7 @@ export function drawLandmarks(context, view, map, colours) {
   for (const part of paintLandmarks(context, view, map, colours)) void part;
 }
 
-/// Where there is room beside the markers, each with so many times its own width for itself.
+/// Draws names where there is room beside the markers; `apart` is the required room in multiples of a name's width.
 function drawNames(context, view, landmarks, colours, apart) {
   const room = new LabelRoom(), height = 11;
   context.fillStyle = colours.text;
@@ -167,7 +167,7 @@ export function drawTrueLandmarks(context, view, points, colours) {
   context.stroke();
 }
 
-/// A robot that looks where it is headed. `size`: 1 is 20 pixels long.
+/// Draws the robot with its heading. A `size` of 1 is 20 pixels long.
 export function drawRobot(context, view, x, y, heading, fill, edge, size = 1) {
   if (![x, y, heading].every(Number.isFinite)) return;
   context.save();

@@ -1,4 +1,4 @@
-// A distance on the map, from where one presses to where one lets go.
+// Measures a distance on the map between pressing and releasing the pointer.
 
 import { number } from './words.js';
 
@@ -6,7 +6,7 @@ export class Ruler {
   on = false;
   ends = null;
 
-  /// For steerMap: takes the pointer while it is on.
+  /// For steerMap: takes the pointer while the ruler is on.
   press(x, y, phase) {
     if (!this.on) return false;
     if (phase === 'down') this.ends = [[x, y], [x, y]];
@@ -14,7 +14,7 @@ export class Ruler {
     return true;
   }
 
-  /// On or off; off forgets.
+  /// Switches the ruler on or off; off clears it.
   set(on) {
     this.on = on;
     if (!on) this.ends = null;

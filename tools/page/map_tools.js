@@ -1,4 +1,4 @@
-// The switches and tools of a map that is live.
+// The layer switches and tools of the live map.
 
 import { liveLayers } from './live_map.js';
 import { mapAsGeoJson, exportMenu } from './map_export.js';
@@ -10,7 +10,7 @@ function button(words, title, onclick, more = {}) {
   return element('button', { type: 'button', title, onclick, ...more }, words);
 }
 
-/// Those that have nothing to show yet are left out until they have.
+/// True if the layer has something to show; others have no switch.
 function hasLayer(store, key) {
   if (key === 'truth') return store.truth.length > 0;
   if (key === 'hindsight') return store.path.length > 0;
@@ -18,7 +18,7 @@ function hasLayer(store, key) {
   return true;
 }
 
-/// The way in so many points at most.
+/// The path with at most `most` points.
 function wayOf(columns, x, y, most = 20000) {
   const xs = columns.get(x), ys = columns.get(y), by = Math.max(1, Math.ceil(xs.length / most)), points = [];
   const rounded = (value) => Number(value.toFixed(4));
@@ -33,7 +33,7 @@ export function liveGeoJson({ poses, truth, map, path }) {
 }
 
 export class MapTools {
-  /// `map`: a LiveMap. `tell(words)`: for people.
+  /// `map` is a LiveMap; `tell(words)` shows a message.
   constructor(map, tell) {
     const { store, link, view } = map;
     this.map = map;
@@ -57,7 +57,7 @@ export class MapTools {
     map.moded = () => this.update();
   }
 
-  /// In the middle of the robot where it follows.
+  /// Zooms; about the robot if the view follows it.
   #zoom(factor) {
     this.map.view.zoom(factor);
     this.map.become(this.map.mode === 'follow' ? 'follow' : 'free');

@@ -1,4 +1,4 @@
-// The map with the way through it: pan, zoom, and the robot at the linked instant.
+// The map with the path and the robot at the linked instant; it can be panned and zoomed.
 
 import { Surface } from './canvas.js';
 import { drawGrid, drawLandmarks, drawPath, drawRobot, drawTrueLandmarks, ellipse, landmarkWords, nearestLandmark } from './map_layers.js';
@@ -7,14 +7,14 @@ import { steerMap } from './map_hands.js';
 import { Viewpoint } from './viewpoint.js';
 import { element, number } from './words.js';
 
-/// Each with its switch: key, words, class of its swatch.
+/// Layers with their switches: key, words, class of the swatch.
 const layers = [['estimate', 'estimate', 's-estimate'], ['truth', 'truth', 's-truth'],
   ['odometry', 'odometry alone', 's-odometry'], ['hindsight', 'in hindsight', 's-hindsight'],
   ['landmarks', 'landmarks, 2σ', 's-landmarks'], ['true_landmarks', 'true landmarks', 's-truth'],
   ['whole', 'whole way', 's-band']];
 
 export class MapView {
-  /// `run`: { series, map, health } as report.js has it. The view follows `link`.
+  /// `run` is { series, map, health } as in report.js. The view follows `link`.
   constructor(run, link) {
     this.run = run;
     this.link = link;
@@ -43,7 +43,7 @@ export class MapView {
     return true;
   }
 
-  /// Odometry that leads far away would make everything else small.
+  /// True if the odometry leads so far away that showing it would make everything else small.
   #strays() {
     const { series } = this.run;
     const reach = (values) => values.reduce((most, value) => Math.max(most, Math.abs(value ?? 0)), 0);
@@ -82,7 +82,7 @@ export class MapView {
     });
   }
 
-  /// What the landmark that is pointed at is called.
+  /// The name of the landmark at the pointer.
   #landmarkAt(x, y) {
     const found = nearestLandmark(this.run.map.landmarks, x, y, this.view.scale);
     return found && this.shown.has('landmarks') ? `${landmarkWords(this.run.map.word, found.name, found.id)} · ` : '';
@@ -104,7 +104,7 @@ export class MapView {
     this.view.fit(box[0] <= box[2] ? box : [-5, -5, 5, 5]);
   }
 
-  /// What the canvas shows, on any context of that size.
+  /// Draws the content of the canvas on any context of this size.
   paint(context, width, height) {
     const { view } = this;
     view.width = width, view.height = height;

@@ -1,4 +1,4 @@
-// Several runs over each other in one map: each has a colour and dashes of its own.
+// Several runs in one map, each with its own colour and dashes.
 
 import { Surface } from './canvas.js';
 import { steerMap } from './map_hands.js';
@@ -7,12 +7,12 @@ import { indexAt } from './time_link.js';
 import { Viewpoint } from './viewpoint.js';
 import { element, number } from './words.js';
 
-/// Told apart by whoever sees no red or no green, too. live.css has the same for swatches.
+/// The colours are distinguishable for colour-blind users. live.css has the same colours for the swatches.
 const runStyles = [{ colour: '#1f6feb', dash: [] }, { colour: '#d55e00', dash: [9, 4] }, { colour: '#009e73', dash: [2, 3] },
   { colour: '#cc79a7', dash: [9, 3, 2, 3] }];
 
 export class OverlayMap {
-  /// `runs` as report.js has them, each in its own map's frame. The view follows `link`.
+  /// `runs` are as in report.js, each in the frame of its own map. The view follows `link`.
   constructor(runs, link) {
     this.runs = runs.map((run, i) => ({ run, ...runStyles[i % runStyles.length] }));
     this.link = link;
@@ -55,7 +55,7 @@ export class OverlayMap {
     this.view.fit(box[0] <= box[2] ? box : [-5, -5, 5, 5]);
   }
 
-  /// What the canvas shows, on any context of that size.
+  /// Draws the content of the canvas on any context of this size.
   paint(context, width, height) {
     const { view } = this, { colours } = this.surface;
     view.width = width, view.height = height;

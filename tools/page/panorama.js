@@ -1,4 +1,4 @@
-// All directions round the robot, unrolled: what was seen in the newest image, and where landmarks were expected.
+// The panorama of all directions: the bearings of the newest image and the expected bearings of landmarks.
 
 import { Surface } from './canvas.js';
 import { countFates, drawMark, fateOf, fates } from './fates.js';
@@ -9,7 +9,7 @@ import { element } from './words.js';
 
 const side = 10, foot = 18, head = 27, strip = 96;
 const nameHeight_px = 11;
-/// Of more than so many hardly any name would have room.
+/// With more bearings than this, names are not drawn because few would have room.
 const mostNames = 60;
 const sides = [[Math.PI, '±180°'], [Math.PI / 2, '90° left'], [0, 'ahead'], [-Math.PI / 2, '90° right'], [-Math.PI, '±180°']];
 
@@ -34,7 +34,7 @@ export class Panorama {
     }));
   }
 
-  /// The newest picture, or null; where the rig tells how it has to be laid out, the panorama begins with that.
+  /// Shows the newest picture, or null. The panorama only contains the picture if the rig describes the image geometry.
   show(image, picture = null) {
     const { rig } = this.store.hello ?? {};
     this.pictured = image !== null && rig?.image
@@ -59,8 +59,8 @@ export class Panorama {
     this.#tell(bearings, expected);
   }
 
-  /// Below the marks of those that were expected nowhere, as those of a lost robot are: their landmarks, or what the camera calls
-  /// them.
+  /// Names the bearings without an expectation, such as all bearings of a lost robot, below their marks: with their
+  /// landmark or with the identity from the camera.
   #nameSeen(context, bearings, expected, height, colours) {
     const named = new Set(expected.map(([id]) => id));
     context.fillStyle = colours.faint;
@@ -69,7 +69,7 @@ export class Panorama {
       if (!named.has(bearing[5])) this.#write(context, this.seenName(bearing), this.x(bearing[0]), Math.min(height - foot - 2, this.y(bearing[1]) + 16), 1);
   }
 
-  /// Above their bands, in two rows: numbers that stand side by side are read one by one.
+  /// Names the expected bearings above their bands, in two rows.
   #nameExpected(context, expected, height, colours) {
     context.fillStyle = colours.faint;
     context.textAlign = 'center';
@@ -77,7 +77,7 @@ export class Panorama {
       this.#write(context, this.#label(id), this.x(azimuth), this.#bandOf(elevation, height)[0] - 3, -1);
   }
 
-  /// In the middle of `x` above `y`, where it touches no other name, else a row farther away; else it is left out.
+  /// Writes a name centred on `x` above `y` if it touches no other name, else one row farther away, else not at all.
   #write(context, words, x, y, away) {
     if (words === '') return;
     const width = context.measureText(words).width + 3, rows = [y, y + away * nameHeight_px];
@@ -94,7 +94,7 @@ export class Panorama {
     return this.store.map.byId?.get(id)?.label ?? '';
   }
 
-  /// By elevation where there are any; else all in the middle.
+  /// The height of a mark by its elevation; without elevations, all marks are in the middle.
   #heights(bearings, expected, height) {
     const known = [...bearings.map((bearing) => bearing[1]), ...expected.map((one) => one[3])].filter(Number.isFinite);
     const middle = (this.top + height - foot) / 2;
@@ -104,7 +104,7 @@ export class Panorama {
       ? height - foot - ((elevation - low) / (high - low)) * (height - foot - this.top) : middle);
   }
 
-  /// Below it, the same directions; what was expected and seen is marked at its edges, so that the picture stays to be seen.
+  /// Draws the unrolled picture with the same directions. Expected and observed bearings are marked at its edges only.
   #drawPicture(context, width, expected, bearings) {
     const { colours } = this.surface;
     context.drawImage(this.unrolled.strip, side, 0, width - 2 * side, strip);
@@ -135,7 +135,8 @@ export class Panorama {
     }
   }
 
-  /// Two standard deviations to each side; the gate as a bracket, where it is known.
+  /// Draws an expected bearing: a band of two standard deviations to each side, and the gate as a bracket if it is
+  /// known.
   #drawExpected(context, [, azimuth, sigma, elevation, gate], height, colours) {
     const x = this.x(azimuth), half = Math.max(1.5, Math.abs(this.x(2 * sigma) - this.x(0)));
     const [top, low] = this.#bandOf(elevation, height);
@@ -146,7 +147,7 @@ export class Panorama {
     if (Number.isFinite(gate)) this.#drawGate(context, x, Math.abs(this.x(Math.min(gate, Math.PI)) - this.x(0)), top, low, colours);
   }
 
-  /// Its upper and its lower end.
+  /// The upper and the lower end of the band.
   #bandOf(elevation, height) {
     if (!Number.isFinite(elevation)) return [this.top, height - foot];
     const y = this.y(elevation);

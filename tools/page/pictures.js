@@ -1,9 +1,9 @@
-// Images with what was seen in them: the one of the linked instant large, all of them in a strip.
+// Images with their detections: the one of the linked instant large, and all of them in a strip.
 
 import { element, number } from './words.js';
 
 export class Pictures {
-  /// `pictures`: [{ t, why, src }], in order of their times.
+  /// `pictures` is [{ t, why, src }], sorted by time.
   constructor(pictures, link) {
     this.pictures = pictures;
     this.link = link;
@@ -21,7 +21,7 @@ export class Pictures {
     this.show();
   }
 
-  /// The last one that is not after the cursor.
+  /// Shows the last picture that is not after the cursor.
   show() {
     const after = this.pictures.findIndex(({ t }) => t > this.link.cursor + 1e-3);
     const index = after < 0 ? this.pictures.length - 1 : Math.max(0, after - 1);

@@ -1,4 +1,4 @@
-// A recorded run, served: the report's page with its data fetched, the moment in its address, and maps that can be saved.
+// The page of a served recording: the report with fetched data, the moment in the page's address, and maps to save.
 
 import { exportMenu, mapAsGeoJson, momentWanted } from './map_export.js';
 import { OverlayMap } from './overlay_map.js';
@@ -19,7 +19,7 @@ async function load() {
   return await answer.json();
 }
 
-/// Fills the element once the run is there.
+/// Fetches the run and fills the element.
 export async function showRecorded(root) {
   const data = await load();
   const { link, maps } = showReport(data, root), said = element('span', { role: 'status', class: 'faint' });

@@ -1,12 +1,13 @@
-// A page of what was replayed. Its data are one object of JSON, in the element #data where the page is one file; recorded.js
-// fetches it from `azimuth view`:
+// The page of replayed runs. Its data are one JSON object, which a page in a single file has in the element #data, and
+// which recorded.js fetches from `azimuth view`:
 //
 //   { made_by, runs: [{ name, estimator, front_end, digest, trouble, unread, steps, starts_at_us, nees_bounds: [low, high],
 //       metrics: [{ key, label, unit, value, decimals, better, note }], series: { step, t, x, y, ... },
 //       health: [{ from, to, health, reason }], map: { word, true_words, all, kinds, landmarks, true_landmarks, hindsight },
 //       pictures: [{ t, why, src }] }] }
 //
-// Columns of `series` are of one length, null where there is no number; tools/replay_page/page_series.hpp says what they are.
+// All columns of `series` have the same length, with null for missing numbers; tools/replay_page/page_series.hpp
+// describes them.
 
 import { chartsOf } from './run_charts.js';
 import { headingOf, runPanel } from './run_panel.js';
@@ -27,18 +28,18 @@ function keys(inTime) {
       ' turns the map.');
 }
 
-/// What samples could not be used, and what of the recording could not be read.
+/// The unusable samples and the unreadable parts of the recordings.
 function troubles(runs) {
   return runs.flatMap(({ name, trouble, unread }) => [trouble, unread].filter((words) => words).map((words) =>
     element('section', { class: 'card trouble', role: 'note' }, element('b', {}, 'Trouble '),
       runs.length > 1 ? `${name}: ${words}` : words)));
 }
 
-/// A map alone, as a file holds it, has no time: neither bar nor charts.
+/// False for a map file, which has no time and therefore neither bar nor charts.
 const lasts = ({ series }) => series.t.length > 0;
 const endOf = (run) => run.series.t.at(-1) ?? 0;
 
-/// Fills the element; the link of what is shown, and the maps' views.
+/// Fills the element; returns the time link and the views of the maps.
 export function showReport({ made_by, runs }, root) {
   const link = new TimeLink(0, Math.max(...runs.map(endOf)));
   const alone = runs.length === 1, axes = new Map();

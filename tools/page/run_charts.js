@@ -1,15 +1,15 @@
-// Which charts a run has, of what was measured.
+// Selects the charts of a run by its measured data.
 
 import { number } from './words.js';
 
 const degrees = 180 / Math.PI;
-/// Of the time within two standard deviations: less than that says that they are too small.
+/// If the error is within two standard deviations for a smaller share of the time, the deviations are too small.
 const few_percent = 85;
 
 const times = (values, factor) => values?.map((value) => (value === null ? null : value * factor));
 const measured = (values) => values !== undefined && values.some((value) => value !== null);
 
-/// Specifications for TimeChart, in the order in which they are read.
+/// Specifications for TimeChart, in reading order.
 export function chartsOf(run) {
   const { series } = run;
   if (series.t.length === 0) return [];
@@ -21,7 +21,7 @@ export function chartsOf(run) {
   return charts;
 }
 
-/// How often the error is as small as it is said to be: 95 % of the time if that is true.
+/// The share of the time in which the error is within its limits; 95 % if the covariance is right.
 export function shareWithin(errors, limits) {
   const both = errors.map((error, i) => [error, limits[i]]).filter(([error, limit]) => error !== null && limit !== null);
   const within = both.filter(([error, limit]) => Math.abs(error) <= limit).length;
@@ -30,7 +30,7 @@ export function shareWithin(errors, limits) {
   return `${percent < few_percent ? 'only ' : ''}${number(Math.floor(percent), 0)} % of it within 2σ`;
 }
 
-/// With truth the error beside two standard deviations; without it these alone.
+/// With truth: the error and two standard deviations; without truth: only the deviations.
 function error(run, axis, unit, factor) {
   const { series } = run;
   const known = measured(series[`error_${axis}`]);

@@ -1,4 +1,4 @@
-// All that is shown of one run.
+// The panel of one run.
 
 import { HealthBar, healthTable } from './health_bar.js';
 import { MapView } from './map_view.js';
@@ -14,7 +14,7 @@ export function headingOf(run) {
   return `${run.estimator}, ${run.steps} steps${steps}, ${duration(run.series.t.at(-1))}`;
 }
 
-/// A chart that another run has keeps its place, so that columns can be read across.
+/// The chart, or an empty place for a chart that only another run has, so that charts in columns are aligned.
 function chartOrGap(key, specs, all, link, axes) {
   const spec = specs.find((own) => own.key === key);
   if (spec) return new TimeChart(spec, link, axes).node;
@@ -23,9 +23,8 @@ function chartOrGap(key, specs, all, link, axes) {
     'Not measured in this run.'));
 }
 
-/// Its node, and its map's view. `alone`: map and charts side by side; else below each other, in a column beside other runs.
-/// `axes`: of all runs, whose
-/// charts are `all`.
+/// Returns the node of the panel and the view of its map. With `alone`, map and charts are side by side; otherwise
+/// below each other in a column beside other runs. `axes` and `all` are the axes and the charts of all runs.
 export function runPanel(run, link, alone, axes, all = chartsOf(run)) {
   const map = new MapView(run, link), left = element('div', { class: 'left' }, map.node);
   const right = element('div', { class: 'right' });

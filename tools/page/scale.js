@@ -1,6 +1,6 @@
-// From values to pixels, and where the ticks are.
+// Scales from values to pixels, and ticks.
 
-/// Round steps, about `count` of them.
+/// A round step that divides `span` into about `count` parts.
 export function step(span, count) {
   const raw = span / Math.max(1, count);
   const power = 10 ** Math.floor(Math.log10(raw));
@@ -15,7 +15,7 @@ export function ticks(from, to, count) {
   return found;
 }
 
-/// Of seconds: tenths and whole ones, then halves of minutes, minutes, hours.
+/// Ticks for seconds: tenths and whole seconds, then half minutes, minutes, hours.
 export function timeTicks(from, to, count) {
   const span = (to - from) / Math.max(1, count);
   const by = [0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200].find((s) => s >= span) ?? 14400;
@@ -24,7 +24,7 @@ export function timeTicks(from, to, count) {
   return found;
 }
 
-/// Values of a decade each, and 2 and 5 of it where there are few.
+/// Ticks at powers of ten, and also at 2 and 5 times these if there are few.
 export function logTicks(from, to) {
   const first = Math.floor(Math.log10(from)), last = Math.ceil(Math.log10(to));
   const found = [];
@@ -33,7 +33,7 @@ export function logTicks(from, to) {
   return found.filter((value, i) => value >= from * 0.999 && value <= to * 1.001 && i % stride === 0);
 }
 
-/// A function from [from, to] to [start, end]; logarithmic if so asked.
+/// A function from [from, to] to [start, end], linear or logarithmic.
 export function scale(from, to, start, end, logarithmic = false) {
   const place = logarithmic ? (value) => Math.log(Math.max(value, from * 1e-3)) : (value) => value;
   const low = place(from), factor = (end - start) / (place(to) - low || 1);

@@ -5,7 +5,7 @@
 
 namespace azimuth {
 
-/// SHA-256 (FIPS 180-4): what a Content-Security-Policy names a script by. Reentrant.
+/// SHA-256 (FIPS 180-4), by which a Content-Security-Policy identifies a script. Reentrant.
 std::array<std::byte, 32> sha256(std::string_view text);
 
 }  // namespace azimuth

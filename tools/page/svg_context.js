@@ -1,4 +1,4 @@
-// What draws on a canvas, drawn as SVG: as much of a canvas's context as the maps use.
+// A drawing context that makes SVG, with the part of the canvas interface that the maps use.
 
 const escaped = (text) => `${text}`.replace(/[&<>"]/g, (c) => ({ '&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;' })[c]);
 const brief = (value) => Number(value.toFixed(2));
@@ -30,11 +30,11 @@ export class SvgContext {
   beginPath() { this.#path = ''; }
   closePath() { this.#path += 'Z'; }
   moveTo(x, y) { this.#path += `M${brief(x)} ${brief(y)}`; }
-  /// The first one begins the path, as on a canvas.
+  /// The first point starts the path, as on a canvas.
   lineTo(x, y) { this.#path += `${this.#path === '' ? 'M' : 'L'}${brief(x)} ${brief(y)}`; }
   arc(x, y, radius) { this.ellipse(x, y, radius, radius, 0); }
 
-  /// Whole ones alone, which are all that maps have.
+  /// Only full ellipses, because maps have no others.
   ellipse(x, y, long, across, turn) {
     const cos = long * Math.cos(turn), sin = long * Math.sin(turn), degrees = (turn * 180) / Math.PI;
     const half = (px, py) => `A${brief(long)} ${brief(across)} ${brief(degrees)} 0 1 ${brief(px)} ${brief(py)}`;

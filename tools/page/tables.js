@@ -1,4 +1,4 @@
-// Numbers of runs: tiles for the few that matter first, a table for all of them, of several runs beside each other.
+// Figures of runs: tiles for the most important ones, and a table of all, with several runs side by side.
 
 import { element, number, withUnit } from './words.js';
 
@@ -12,7 +12,7 @@ export function tiles(metrics) {
       element('div', { class: 'label' }, label))));
 }
 
-/// The better, the lower, as far as the table shows it; where nothing is better, nothing.
+/// A number that is lower for better values, rounded as in the table; nothing for figures without a better direction.
 function badness({ value: exact, decimals, better }) {
   const value = Number(exact.toFixed(decimals));
   if (better === 'lower') return value;
@@ -21,7 +21,7 @@ function badness({ value: exact, decimals, better }) {
   return null;
 }
 
-/// The best of several values; none where all are alike.
+/// The best of several values; none if all are equal.
 function bestOf(row) {
   const known = row.filter((metric) => metric !== undefined);
   const all = known.map(badness);
@@ -35,7 +35,7 @@ function cell(metric, isBest) {
     withUnit(number(metric.value, metric.decimals), metric.unit));
 }
 
-/// `panels`: one element a run, which its box shows and hides.
+/// `panels` has one element for each run, which the checkbox of the run shows or hides.
 export function comparison(runs, panels, changed) {
   const keys = [...new Set(runs.flatMap((run) => run.metrics.map(({ key }) => key)))];
   const rows = keys.map((key) => {

@@ -9,7 +9,7 @@
 namespace azimuth {
 namespace {
 
-/// The least and the greatest of a stretch; none of one without numbers.
+/// Adds the indices of the minimum and the maximum of a stretch, if it has finite values.
 void add_extremes(std::span<const double> values, std::size_t from, std::size_t to, std::vector<std::size_t>& kept) {
   std::optional<std::size_t> least, greatest;
   for (std::size_t i = from; i < to; ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// Fewer instants of a long record, chosen so that no peak is lost.
+// Selects instants of a long record such that peaks are kept.
 
 #include <cstddef>
 #include <span>
@@ -7,9 +7,9 @@
 
 namespace azimuth {
 
-/// Indices of at most `most` of `count` instants, in order: the first and the last, and of each of many short stretches
-/// the least and the greatest value of every series. Each series has `count` values; those that are no numbers are
-/// passed over. All of them where `count` is no more than `most`.
+/// Indices of at most `most` out of `count` instants, in ascending order. They include the first and the last instant,
+/// and for each of many short stretches the minimum and the maximum of every series. Each series has `count` values;
+/// values that are not finite are ignored. If `count` is at most `most`, all indices are returned.
 ///
 /// `most` is at least 2 * (1 + series). Reentrant.
 std::vector<std::size_t> thinned(std::size_t count, std::span<const std::span<const double>> series, std::size_t most);

@@ -1,21 +1,21 @@
-// The bar that steers time: play, speed, a step, the next change.
+// The bar that controls the time: play, speed, single steps, jumps to changes.
 
 import { steerByKey } from './time_chart.js';
 import { indexAt } from './time_link.js';
 import { element, number } from './words.js';
 
-/// A run is played in about this time, unless a speed is chosen.
+/// Approximate duration of playing a run, if no speed is chosen.
 const playSeconds = 20;
 const speeds = [0.5, 1, 2, 5, 10, 20, 50];
 
-/// What moves the cursor on, from frame to frame; `told(playing)` when it begins and ends.
+/// Moves the cursor from frame to frame; calls `told(playing)` at start and end.
 class Player {
   #last = null;
 
   constructor(link, told) {
     this.link = link;
     this.told = told;
-    this.speed = null;  // times real time
+    this.speed = null;  // multiple of real time
   }
 
   toggle() {
@@ -42,7 +42,7 @@ class Player {
   }
 }
 
-/// The first of `events` (in seconds, in order) on that side of the cursor.
+/// Moves the cursor to the next or previous one of `events` (sorted seconds).
 function jump(link, events, forward) {
   const next = forward ? events.find((t) => t > link.cursor + 1e-3) : events.findLast((t) => t < link.cursor - 1e-3);
   if (next !== undefined) link.moveTo(next);
@@ -52,7 +52,7 @@ function tool(sign, title, onclick) {
   return element('button', { type: 'button', title, 'aria-label': title, onclick }, sign);
 }
 
-/// `times`: of the steps; `events`: instants to jump to.
+/// `times` are the times of the steps, `events` the instants for jumps.
 export function timeBar(link, times, events) {
   const moments = [...new Set(events)].sort((a, b) => a - b);
   const button = element('button', { type: 'button', title: 'Play (space)', onclick: () => player.toggle() }, 'Play');

@@ -1,4 +1,4 @@
-// A chart over time: bands, lines and stacked rates, under the one cursor of the page.
+// A chart over time with bands, lines and stacked rates, and the common cursor of the page.
 
 import { strokeDense, strokeLine, Surface } from './canvas.js';
 import { decimalsOf, logTicks, scale, ticks, timeTicks } from './scale.js';
@@ -7,7 +7,8 @@ import { element, number, short } from './words.js';
 
 const left = 46, right = 8, top = 8, bottom = 18;
 
-/// Moves the cursor and the stretch of `link` by mouse, touch and keys, on a canvas with time across. `times()`: of steps.
+/// Moves the cursor and the time range of `link` by mouse, touch and keys on a canvas with a horizontal time axis.
+/// `times()` returns the times of the steps.
 export function steerTime(canvas, link, times) {
   const at = (event) => link.from + ((event.offsetX - left) / Math.max(1, canvas.clientWidth - left - right)) * link.span;
   let pressed = null;
@@ -35,7 +36,8 @@ export function steerTime(canvas, link, times) {
   canvas.addEventListener('keydown', (event) => steerByKey(event, link, times()));
 }
 
-/// Arrows: a step, with Shift a twentieth of what is shown; + and - zoom about the cursor, 0 shows all.
+/// Arrows move by a step, with Shift by a twentieth of the shown range; + and - zoom about the cursor, 0 shows
+/// everything.
 export function steerByKey(event, link, times) {
   const now = indexAt(times, link.cursor), far = event.shiftKey ? link.span / 20 : 0;
   if (event.key === 'ArrowLeft') link.moveTo(far ? link.cursor - far : times[Math.max(0, now - 1)]);
@@ -50,14 +52,13 @@ export function steerByKey(event, link, times) {
 }
 
 export class TimeChart {
-  /// `spec`: { key, title, unit, times, parts, symmetric, logarithmic, least, near }, where `near` lets the axis begin above
-  /// zero, and
-  /// a part is one of
+  /// `spec` is { key, title, unit, times, parts, symmetric, logarithmic, least, near }. With `near` the axis may start
+  /// above zero. A part is one of
   ///   { line: values, words, colour, width, dash, opacity }
-  ///   { low, high: values, words, mirrored }                  a band; both may be numbers; `mirrored`: low is -high
-  ///   { counts: values, words, colour }                       counted since the start: stacked by their rates
-  ///   { level: number, colour }                               a line across
-  /// Charts of one key in `group` (a Map) have one axis, so that runs beside each other can be compared.
+  ///   { low, high: values, words, mirrored }                  a band; both may be numbers; `mirrored`: low = -high
+  ///   { counts: values, words, colour }                       counters since the start; their rates are stacked
+  ///   { level: number, colour }                               a horizontal line
+  /// Charts with the same key in `group` (a Map) share an axis, so that runs side by side can be compared.
   constructor(spec, link, group = new Map()) {
     this.spec = spec;
     this.link = link;
@@ -84,7 +85,7 @@ export class TimeChart {
     return legend;
   }
 
-  /// Least and greatest value in the stretch shown, as far as this chart has any.
+  /// Smallest and largest value of this chart in the shown range, if it has any.
   ownRange() {
     const { spec, link } = this;
     const from = indexAt(spec.times, link.from), to = Math.min(spec.times.length, indexAt(spec.times, link.to) + 2);
@@ -107,7 +108,8 @@ export class TimeChart {
     return [low, high];
   }
 
-  /// A band's side may be without bounds for a while, which should not make all else small: its inner nine tenths.
+  /// The extent of a band is that of its inner 90 %, because a band without bounds for a while would make all else
+  /// small.
   #most(side, from, to) {
     const sorted = side.slice(from, to).filter((value) => value !== null && Number.isFinite(value)).sort((a, b) => a - b);
     const last = sorted.length - 1;
@@ -134,7 +136,7 @@ export class TimeChart {
     return Array.from({ length: count }, (_, k) => ({ from: this.link.from + k * by, to: this.link.from + (k + 1) * by }));
   }
 
-  /// Between two steps as if evenly counted.
+  /// The rate between two steps, as if the counter grew evenly.
   #rate(counts, from, to) {
     const { times } = this.spec;
     const by = (seconds) => {
@@ -244,7 +246,7 @@ function drawAxes(context, { x, y }, { low, high, width, height, colours, link, 
   for (const seconds of times) context.fillText(clock(seconds, times), Math.min(width - 18, x(seconds)), height - 4);
 }
 
-/// Seconds, or minutes where there are many.
+/// Formats seconds, or minutes for long ranges.
 export function clock(seconds, all) {
   if (all.at(-1) < 180) return `${Number(seconds.toFixed(1))} s`;
   return `${Math.floor(seconds / 60)}:${String(Math.round(seconds % 60)).padStart(2, '0')}`;

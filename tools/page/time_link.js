@@ -1,6 +1,6 @@
-// The instant and the stretch of time that everything on a page shows alike.
+// The instant and the time range that all parts of a page share.
 
-/// Seconds from `begin` to `end`. Listeners are told once a frame, however much has changed.
+/// Times are seconds from `begin` to `end`. Listeners are called at most once per frame.
 export class TimeLink {
   constructor(begin, end) {
     this.begin = begin;
@@ -16,7 +16,7 @@ export class TimeLink {
     this.#listeners.push(listener);
   }
 
-  /// Whether pointing at a chart moves the cursor, without a button.
+  /// True if pointing at a chart without a button moves the cursor.
   get hovers() {
     return true;
   }
@@ -30,7 +30,7 @@ export class TimeLink {
     this.#tell();
   }
 
-  /// Not beyond what there is, and no shorter than a thousandth of it.
+  /// Shows a range, clipped to the available time and at least a thousandth of it.
   show(from, to) {
     const whole = this.end - this.begin;
     const span = Math.min(whole, Math.max(whole / 1000, to - from));
@@ -39,7 +39,7 @@ export class TimeLink {
     this.#tell();
   }
 
-  /// Shorter by `factor`, with `about` staying where it is.
+  /// Shortens the range by `factor`; `about` keeps its place.
   zoom(factor, about) {
     this.show(about - (about - this.from) * factor, about + (this.to - about) * factor);
   }
@@ -50,7 +50,7 @@ export class TimeLink {
     this.#tell();
   }
 
-  /// To be called when what is shown has changed otherwise.
+  /// Must be called after other changes of the shown content.
   changed() {
     this.#tell();
   }
@@ -65,7 +65,7 @@ export class TimeLink {
   }
 }
 
-/// Index of the last time that is not after `seconds`; 0 when all are.
+/// Index of the last time that is not after `seconds`; 0 if all are after.
 export function indexAt(times, seconds) {
   let low = 0, high = times.length;
   while (high - low > 1) {

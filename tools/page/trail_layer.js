@@ -1,15 +1,15 @@
-// Long ways, drawn no finer than can be seen, in parts that fit into a frame.
+// Draws long paths with visible detail only, in parts that fit into a frame.
 
 const rowsInAFrame = 5000;
 
-/// Points nearer than this to the last one drawn, in pixels, are left out.
+/// Points closer than this to the last drawn one are skipped.
 const finest_px = 0.9;
 
-/// How a stretch of the way is drawn, by health: colour and dashes both tell it.
+/// Style of a stretch of the path by health; colour and dashes both show it.
 export const healthStyles = [{ colour: 'starting', width: 1.6, dash: [2, 3] }, { colour: 'estimate', width: 2.2, dash: [] },
   { colour: 'degraded', width: 2.6, dash: [7, 4] }, { colour: 'lost', width: 2.8, dash: [2, 4] }];
 
-/// Rows `from` to `to` of the columns `x` and `y`, of one style.
+/// Draws rows `from` to `to` of the columns `x` and `y` in one style.
 function strokeRows(context, view, x, y, from, to) {
   let lastX = NaN, lastY = NaN, wasOut = 0;
   context.beginPath();
@@ -20,7 +20,7 @@ function strokeRows(context, view, x, y, from, to) {
       continue;
     }
     if (i + 1 < to && Math.abs(px - lastX) + Math.abs(py - lastY) < finest_px) continue;
-    // Beyond one side with both ends: not in sight.
+    // Both ends are beyond the same side, so the line is out of sight.
     const out = (px < -20 ? 1 : px > view.width + 20 ? 2 : 0) | (py < -20 ? 4 : py > view.height + 20 ? 8 : 0);
     if (Number.isNaN(lastX) || (out & wasOut)) context.moveTo(px, py);
     else context.lineTo(px, py);
@@ -29,7 +29,7 @@ function strokeRows(context, view, x, y, from, to) {
   context.stroke();
 }
 
-/// One style where `styles` is of one; else the one that `health` says. Joined to the row before.
+/// Draws rows in the only style of `styles`, or in the style of their health. They are joined to the row before.
 function paintRows(context, view, columns, [xs, ys], styles, colours, from, to) {
   const x = columns.get(xs), y = columns.get(ys), health = styles.length > 1 ? columns.get('health') : null;
   const way = columns.names.includes('way') ? columns.get('way') : null;
@@ -42,7 +42,7 @@ function paintRows(context, view, columns, [xs, ys], styles, colours, from, to) 
     context.strokeStyle = colours[style.colour];
     context.lineWidth = style.width;
     context.setLineDash(style.dash);
-    // Dashes go on where those of the part before ended.
+    // The dashes continue those of the previous part.
     if (style.dash.length > 0 && way) context.lineDashOffset = (way[Math.max(0, begin - 1)] * view.scale) % 840;
     strokeRows(context, view, x, y, Math.max(0, begin - 1), end);
     begin = end;
@@ -51,7 +51,7 @@ function paintRows(context, view, columns, [xs, ys], styles, colours, from, to) 
   context.lineDashOffset = 0;
 }
 
-/// For MapCache: `paint` and `append` of the way in `columns`.
+/// The functions `paint` and `append` of MapCache for the path in `columns`.
 export function trailPainter(columns, names, styles) {
   return [
     function* paint(context, view, colours) {

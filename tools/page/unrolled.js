@@ -1,11 +1,12 @@
-// An omnidirectional picture laid out by azimuth: left is behind, over the left side to ahead in the middle. Which pixel goes where
-// is worked out once; each picture is then a walk through that list.
+// Unrolls an omnidirectional picture by azimuth: from behind at the left edge over the left side to ahead in the
+// middle. A table of pixels is computed once and used for every picture.
 
-/// Rows of it; columns are so many.
+/// Size of the unrolled picture.
 export const rows = 96, columns = 720;
 
-/// The ring of the picture that shows the world, and how azimuths lie in it: `geometry` as the rig's "image" has it, `picture` with
-/// its width and height. The picture is larger than the image by a margin. Null: nothing is known of that.
+/// The ring of the picture that shows the surroundings, and the direction of its azimuths. `geometry` is "image" of the
+/// rig; `picture` has its width and height. The picture is larger than the image by a margin. Null if the geometry is
+/// unknown.
 export function ringOf(geometry, picture) {
   if (!geometry?.centre || !(geometry.width > 0) || !picture) return null;
   const margin = Math.max(0, (picture.width - geometry.width) / 2);
@@ -14,8 +15,8 @@ export function ringOf(geometry, picture) {
     width: picture.width, height: picture.height };
 }
 
-/// Of each place in the strip the index of its pixel, -1 where there is none. A mirror's rim shows what is highest, the middle of a
-/// lens that looks up does.
+/// The index of the picture's pixel for each place in the strip; -1 if there is none. The highest elevations are at the
+/// rim of a mirror and in the middle of a lens that looks up.
 export function pixelIndices({ centre: [u0, v0], beta, direction, offset, inner, outer, margin, width, height, looksUp }) {
   const indices = new Int32Array(rows * columns);
   for (let row = 0; row < rows; ++row) {
@@ -39,7 +40,7 @@ export class Unrolled {
     this.reader = this.source.getContext('2d', { willReadFrequently: true });
   }
 
-  /// Whether the strip shows the picture now.
+  /// Unrolls a picture; returns whether the strip shows it.
   take(image, geometry, picture) {
     const ring = ringOf(geometry, picture);
     if (!ring || image.naturalWidth !== picture.width || image.naturalHeight !== picture.height) return false;

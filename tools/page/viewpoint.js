@@ -1,10 +1,10 @@
-// Where a map is looked at from: metres to pixels and back.
+// The viewpoint of a map: converts metres to pixels and back.
 
-const leastScale = 0.02, mostScale = 8000;  // pixels a metre
+const leastScale = 0.02, mostScale = 8000;  // pixels per metre
 
 export class Viewpoint {
-  /// `centre`: the point of the map in the middle, in metres; `scale`: pixels a metre, null until something is fitted;
-  /// `turn`: how far the map is turned counter-clockwise, in radians.
+  /// `centre` is the point of the map in the middle, in metres; `scale` is in pixels per metre, null before the first
+  /// fit; `turn` is the counter-clockwise rotation of the map, in radians.
   constructor() {
     this.width = this.height = 1;
     this.centre = [0, 0];
@@ -17,7 +17,7 @@ export class Viewpoint {
     this.cos = Math.cos(turn), this.sin = Math.sin(turn);
   }
 
-  /// `margin`: pixels more on each side.
+  /// A copy that is larger by `margin` pixels on each side.
   copy(margin = 0) {
     const made = Object.assign(new Viewpoint(), this);
     made.centre = [...this.centre];
@@ -38,7 +38,7 @@ export class Viewpoint {
     return px > -margin && py > -margin && px < this.width + margin && py < this.height + margin;
   }
 
-  /// Least and greatest x and y of what is in sight.
+  /// Smallest and largest x and y in sight.
   bounds() {
     const corners = [[0, 0], [this.width, 0], [0, this.height], [this.width, this.height]].map(([px, py]) => this.toMap(px, py));
     const xs = corners.map(([x]) => x), ys = corners.map(([, y]) => y);
@@ -47,7 +47,7 @@ export class Viewpoint {
 
   pan(px, py) { this.centre = this.toMap(this.width / 2 - px, this.height / 2 - py); }
 
-  /// What is at the pixel stays there.
+  /// Zooms; the point at the pixel stays there.
   zoom(factor, px = this.width / 2, py = this.height / 2) {
     this.#about(px, py, () => { this.scale = Math.min(mostScale, Math.max(leastScale, this.scale * factor)); });
   }
@@ -63,7 +63,7 @@ export class Viewpoint {
     this.centre = [this.centre[0] + x - nowX, this.centre[1] + y - nowY];
   }
 
-  /// All of the box [x, y, x, y] in sight, as large as it can be.
+  /// Fits the box [x, y, x, y] into the view.
   fit([left, low, right, high]) {
     const middle = [(left + right) / 2, (low + high) / 2], wide = Math.max(1, right - left), tall = Math.max(1, high - low);
     const across = Math.abs(this.cos) * wide + Math.abs(this.sin) * tall,

@@ -1,6 +1,6 @@
-// Elements and numbers for people. Text goes in as text, never as markup.
+// Makes elements and formats numbers. Text is inserted as text, never as markup.
 
-/// An element with attributes (`on...`: listeners; `class`, `data-...`) and children, strings among them.
+/// Makes an element with attributes (`on...` are listeners; `class`, `data-...`) and children, which may be strings.
 export function element(tag, attributes = {}, ...children) {
   const made = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {
@@ -11,13 +11,13 @@ export function element(tag, attributes = {}, ...children) {
   return made;
 }
 
-/// With a true minus; a dash for what is no number.
+/// Formats a number with a typographic minus; a dash for a missing number.
 export function number(value, decimals) {
   if (value === null || value === undefined || !Number.isFinite(value)) return '–';
   return value.toFixed(decimals).replace('-', '−');
 }
 
-/// With as many digits as tell something.
+/// Formats a number with its significant digits.
 export function short(value) {
   if (value === null || value === undefined || !Number.isFinite(value)) return '–';
   const size = Math.abs(value);
@@ -25,7 +25,7 @@ export function short(value) {
   return number(value, size >= 100 || size === 0 ? 0 : size >= 10 ? 1 : size >= 1 ? 2 : 3);
 }
 
-/// 12.3 s, or 3:05 min.
+/// Formats a duration, e.g. 12.3 s or 3:05 min.
 export function duration(seconds) {
   if (seconds < 100) return `${number(seconds, 1)} s`;
   const whole = Math.round(seconds);

@@ -12,7 +12,7 @@ constexpr Colour kGrid{0.90, 0.91, 0.92};
 constexpr Colour kFrame{0.55, 0.57, 0.60};
 constexpr Colour kLabel{0.30, 0.32, 0.35};
 
-/// As many decimals as the step needs; no "-0".
+/// The value with as many decimals as the step needs, without "-0".
 std::string label(double value, double step) {
   const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
   return fmt::format("{:.{}f}", std::abs(value) < step / 2 ? 0.0 : value, decimals);
@@ -39,7 +39,7 @@ void Axes::draw(PlotCanvas& canvas) const {
   constexpr double kPxPerTick = 90.0;
   const Eigen::Vector2d end = top_left_px_ + size_px_;
   const int most = std::max(3, static_cast<int>(size_px_.minCoeff() / kPxPerTick));
-  // One step for both axes, so that the grid is made of squares.
+  // Both axes have the same step, so that the grid consists of squares.
   const double step_m = tick_step(shown_.size_m().minCoeff(), most);
 
   const TextStyle style{19.0, kLabel, false, Anchor::centre};

@@ -7,11 +7,11 @@
 
 namespace azimuth {
 
-/// Where the map lies on the canvas: x to the right, y upwards, the same scale on both.
+/// Maps map coordinates to the canvas: x to the right, y upwards, the same scale for both.
 class Axes {
  public:
-  /// Fits `shown` into a frame `width_px` wide at `top_left_px`, whose height follows from the shape of `shown` within
-  /// `min_height_px` and `max_height_px`; the shorter side shows more than asked for.
+  /// Fits `shown` into a frame of width `width_px` at `top_left_px`. The height of the frame follows from the shape of
+  /// `shown`, between `min_height_px` and `max_height_px`. In one direction the frame may show more than `shown`.
   Axes(const Extent& shown, const Eigen::Vector2d& top_left_px, double width_px, double min_height_px,
        double max_height_px);
 
@@ -20,10 +20,10 @@ class Axes {
   const Eigen::Vector2d& top_left_px() const { return top_left_px_; }
   const Eigen::Vector2d& size_px() const { return size_px_; }
   Box frame_px() const { return {top_left_px_, top_left_px_ + size_px_}; }
-  /// The part of the map in the frame [m].
+  /// The part of the map that the frame shows [m].
   Box shown_m() const { return {shown_.low_m, shown_.high_m}; }
 
-  /// Grid lines, frame, tick labels in metres and axis names.
+  /// Draws grid lines, frame, tick labels in metres and axis names.
   void draw(PlotCanvas& canvas) const;
 
  private:

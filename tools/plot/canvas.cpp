@@ -13,7 +13,7 @@
 #include "base/sanitizers.hpp"
 
 #ifdef AZIMUTH_ADDRESS_SANITIZER
-// fontconfig keeps the patterns of the fonts it has found until the process ends; the leak is not ours to mend.
+// Suppresses a leak in fontconfig, which keeps font patterns until the process ends.
 extern "C" {
 const char* __lsan_default_suppressions();
 const char* __lsan_default_options();
@@ -25,7 +25,7 @@ const char* __lsan_default_options() { return "print_suppressions=0"; }
 namespace azimuth {
 namespace {
 
-constexpr double kPdfPointsPerPixel = 0.45;  // 1600 pixels are as wide as a sheet of A4
+constexpr double kPdfPointsPerPixel = 0.45;  // 1600 pixels become 720 points, which fits A4 in landscape
 
 cairo_status_t append(void* bytes, const unsigned char* more, unsigned int size) {
   static_cast<std::string*>(bytes)->append(reinterpret_cast<const char*>(more), size);
@@ -42,7 +42,7 @@ cairo_surface_t* make_surface(PlotFormat format, int width_px, int height_px, st
     case PlotFormat::pdf: {
       cairo_surface_t* const surface = cairo_pdf_surface_create_for_stream(append, bytes, kPdfPointsPerPixel * width_px,
                                                                            kPdfPointsPerPixel * height_px);
-      cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "");  // the same bytes every day
+      cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "");  // reproducible output
       return surface;
     }
     case PlotFormat::png:
@@ -51,7 +51,8 @@ cairo_surface_t* make_surface(PlotFormat format, int width_px, int height_px, st
   return cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_px, height_px);
 }
 
-/// Cairo numbers its surfaces through the life of the process and writes the number down; it is of no use to anybody.
+/// Removes the surface number from the SVG. Cairo counts surfaces per process, so that the output would not be
+/// reproducible.
 void forget_surface_number(std::string& svg) {
   constexpr std::string_view kBefore = "<g id=\"surface";
   const std::size_t at = svg.find(kBefore);
@@ -60,7 +61,7 @@ void forget_surface_number(std::string& svg) {
   if (end != std::string::npos) svg.erase(number, end - number);
 }
 
-/// Text is as wide in one format as in another.
+/// Switches off hinting of metrics, so that text has the same width in all formats.
 void forget_pixel_grid(cairo_t* context) {
   cairo_font_options_t* const options = cairo_font_options_create();
   cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
@@ -88,7 +89,7 @@ void PlotCanvas::set(const Colour& colour) {
   cairo_set_source_rgba(context_.get(), colour.red, colour.green, colour.blue, colour.alpha);
 }
 
-// Points that are not finite (a diverged estimate) lift the pen.
+// Points that are not finite (for example, of a diverged estimate) interrupt the line.
 void PlotCanvas::trace(std::span<const Eigen::Vector2d> points_px) {
   cairo_new_path(context_.get());
   for (const Eigen::Vector2d& point : points_px) {

@@ -26,7 +26,8 @@ struct TextStyle {
   Anchor anchor = Anchor::left;
 };
 
-/// A picture with the few strokes a map needs, in pixels from the top left. Errors are sticky and come out of write().
+/// A picture with the drawing operations that maps need. Coordinates are pixels from the top left corner. Errors
+/// persist and are returned by write().
 ///
 /// Thread contract: thread-bound.
 class PlotCanvas {
@@ -39,19 +40,19 @@ class PlotCanvas {
   void ring(const Eigen::Vector2d& centre_px, double radius_px, const Colour& colour, double width_px);
   void polygon(std::span<const Eigen::Vector2d> points_px, const Colour& fill, const Colour& edge, double width_px);
   void rectangle(const Eigen::Vector2d& low_px, const Eigen::Vector2d& size_px, const Colour& fill);
-  /// A gray8 or rgb8 image, pixel by pixel from the top left corner; what is beyond the canvas is cut off. On a canvas
-  /// of pixels only.
+  /// Draws a gray8 or rgb8 image without scaling at the top left corner. Parts beyond the canvas are cut off. Only for
+  /// the format PNG.
   void image(const ImageView& image);
-  /// `at_px` is on the text's base line; `turned` text reads upwards.
+  /// `at_px` is on the text's baseline. Text that is `turned` reads upwards.
   void text(const std::string& words, const Eigen::Vector2d& at_px, const TextStyle& style, bool turned = false);
   double text_width_px(const std::string& words, const TextStyle& style);
 
-  /// Everything until release_clip() stays inside the rectangle.
+  /// Clips all further drawing to the rectangle until release_clip().
   void clip(const Eigen::Vector2d& low_px, const Eigen::Vector2d& size_px);
   void release_clip();
 
-  /// Writes the whole file, after which nothing more can be drawn. The same strokes give the same bytes. The reason
-  /// when it fails.
+  /// Writes the file and ends the drawing. The same drawing operations give the same bytes. Returns the reason if it
+  /// fails.
   [[nodiscard]] std::optional<std::string> write(const std::filesystem::path& file);
 
  private:
@@ -66,7 +67,7 @@ class PlotCanvas {
   void select(const TextStyle& style);
 
   PlotFormat format_;
-  std::unique_ptr<std::string> bytes_;  // a surface of strokes goes on writing to it until its own end
+  std::unique_ptr<std::string> bytes_;  // must outlive surface_: SVG and PDF surfaces write to it
   std::unique_ptr<cairo_surface_t, Destroy> surface_;
   std::unique_ptr<cairo_t, Destroy> context_;
 };

@@ -8,11 +8,11 @@
 namespace azimuth {
 namespace {
 
-constexpr double kFarthest = 1e12;  // beyond it differences of coordinates mean nothing
+constexpr double kFarthest = 1e12;  // larger coordinates leave no meaningful differences
 
 bool is_place(const Eigen::Vector2d& point) { return point.allFinite() && point.cwiseAbs().maxCoeff() < kFarthest; }
 
-/// The parts of the way from `from` to `to`, in [0, 1], at which it enters the box and leaves it (Liang and Barsky).
+/// The parameters in [0, 1] at which the segment from `from` to `to` enters and leaves the box (Liang and Barsky).
 std::optional<std::pair<double, double>> inside(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
                                                 const Box& box) {
   double enters = 0.0, leaves = 1.0;
@@ -34,7 +34,7 @@ std::optional<std::pair<double, double>> inside(const Eigen::Vector2d& from, con
 
 std::vector<PlotLine> clipped(std::span<const Eigen::Vector2d> line, const Box& box) {
   std::vector<PlotLine> pieces;
-  bool open = false;  // the last piece ends where the next step begins
+  bool open = false;  // the last piece ends at the start of the next segment
   for (std::size_t i = 1; i < line.size(); ++i) {
     const Eigen::Vector2d &from = line[i - 1], &to = line[i];
     const auto part = is_place(from) && is_place(to) ? inside(from, to, box) : std::nullopt;

@@ -1,6 +1,5 @@
 #pragma once
-// What of a line is inside of a frame, so that a file holds nothing that is not seen, and no number that a renderer
-// cannot hold.
+// Clips lines to a frame, so that files contain no invisible parts and no numbers too large for renderers.
 
 #include <Eigen/Core>
 #include <span>
@@ -10,7 +9,7 @@ namespace azimuth {
 
 using PlotLine = std::vector<Eigen::Vector2d>;
 
-/// A rectangle, borders included; in whatever unit its holder says.
+/// A rectangle including its borders, in the unit of its context.
 struct Box {
   Eigen::Vector2d low{0.0, 0.0};
   Eigen::Vector2d high{0.0, 0.0};
@@ -19,11 +18,11 @@ struct Box {
   }
 };
 
-/// The pieces of `line` that lie in `box`, in their order. A point that is not finite, or absurdly far off, ends a
-/// piece: it is no place to draw a line to.
+/// The pieces of `line` inside `box`, in order. A point that is not finite, or has absurdly large coordinates, ends a
+/// piece.
 std::vector<PlotLine> clipped(std::span<const Eigen::Vector2d> line, const Box& box);
 
-/// Without points that are nearer than `step` to the last one kept; the first and the last always stay.
+/// The line without points that are nearer than `step` to the last kept point. The first and last points are kept.
 PlotLine thinned(std::span<const Eigen::Vector2d> line, double step);
 
 }  // namespace azimuth

@@ -9,7 +9,7 @@
 namespace azimuth {
 namespace {
 
-/// From the unit circle to the ellipse about the origin.
+/// The matrix that maps the unit circle to the ellipse about the origin.
 Eigen::Matrix2d half_axes_m(const Eigen::Matrix2d& covariance_m2) {
   const PrincipalAxes axes = principal_axes(covariance_m2);
   return axes.directions * axes.eigenvalues.cwiseMax(0.0).cwiseSqrt().asDiagonal() * kDrawnSigmas;
@@ -34,7 +34,7 @@ std::vector<Eigen::Vector2d> ellipse_outline_m(const UncertainPoint& point) {
 }
 
 double ellipse_ink(double semi_major_m, double view_m) {
-  constexpr double kFull = 0.05, kGone = 0.5;  // of the view
+  constexpr double kFull = 0.05, kGone = 0.5;  // semi-major axis as a fraction of the view
   const double share = semi_major_m / view_m;
   if (!(share <= kGone)) return 0.0;
   return share <= kFull ? 1.0 : kFull / share;

@@ -1,5 +1,5 @@
 #pragma once
-// Ellipses of uncertain points, and how much of them is worth drawing.
+// Covariance ellipses and the strength with which they are drawn.
 
 #include <Eigen/Core>
 #include <vector>
@@ -14,15 +14,15 @@ struct UncertainPoint {
 
 inline constexpr double kDrawnSigmas = 2.0;
 
-/// Half the longest diameter of its ellipse of kDrawnSigmas [m]; infinite where the covariance is no number.
+/// Semi-major axis of the ellipse of kDrawnSigmas [m]; infinite if the covariance is not finite.
 double semi_major_m(const UncertainPoint& point);
 
-/// Corners of that ellipse in the map.
+/// Polygon approximation of the ellipse of kDrawnSigmas in the map frame.
 std::vector<Eigen::Vector2d> ellipse_outline_m(const UncertainPoint& point);
 
-/// How strongly an ellipse is drawn in a view whose shorter side is `view_m` long: fully (1) up to a tenth of the view
-/// from end to end, fainter the larger it is, so that all of them need about the same ink, and not at all (0) where it
-/// is larger than the view.
+/// Opacity factor of an ellipse in a view whose shorter side has length `view_m`. It is 1 up to a diameter of a tenth
+/// of the view, decreases for larger ellipses so that all need about the same ink, and is 0 if the diameter exceeds the
+/// view.
 double ellipse_ink(double semi_major_m, double view_m);
 
 }  // namespace azimuth

@@ -5,7 +5,7 @@
 
 namespace azimuth {
 
-/// A box in metres, empty until the first point. Points that are not finite are ignored.
+/// A bounding box in metres, empty until the first point. Points that are not finite are ignored.
 struct Extent {
   Eigen::Vector2d low_m{0.0, 0.0};
   Eigen::Vector2d high_m{0.0, 0.0};
@@ -14,9 +14,10 @@ struct Extent {
   void include(const Eigen::Vector2d& point_m);
   void include(std::span<const Eigen::Vector2d> points_m);
   Eigen::Vector2d size_m() const { return high_m - low_m; }
-  /// Grown by `margin_m` on each side.
+  /// The box enlarged by `margin_m` on each side.
   Extent padded(double margin_m) const;
-  /// Stretched towards `other`, but no further than `limit_m` on each side: what ran away must not make the rest tiny.
+  /// The box enlarged to include `other`, but by at most `limit_m` on each side, so that outliers do not make the rest
+  /// tiny.
   Extent stretched(const Extent& other, double limit_m) const;
 };
 

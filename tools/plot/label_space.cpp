@@ -10,11 +10,11 @@ namespace {
 constexpr double kCell_px = 4.0;
 constexpr int kTaken = -1;
 
-/// From a point towards its label: beside it first, as one reads.
+/// Directions from a point to its label, in order of preference. A label to the right comes first.
 const std::array<Eigen::Vector2d, 8> kDirections{
     {{1.0, 0.0}, {0.7, -0.7}, {0.7, 0.7}, {-1.0, 0.0}, {-0.7, -0.7}, {-0.7, 0.7}, {0.0, -1.0}, {0.0, 1.0}}};
 
-/// The box whose nearest border or corner is `distance_px` away.
+/// The box of the label, whose nearest border or corner is `distance_px` away from the point.
 Box beside(const Eigen::Vector2d& at_px, const Eigen::Vector2d& direction, double distance_px,
            const Eigen::Vector2d& size_px) {
   const Eigen::Vector2d half = size_px / 2;
@@ -54,7 +54,7 @@ void LabelSpace::mark(std::span<const Eigen::Vector2d> line_px, Use as) {
     }
 }
 
-/// Cells it covers that are to be avoided; kTaken where it has no place.
+/// Number of covered cells to avoid; kTaken if the box is outside the frame or on occupied space.
 int LabelSpace::cost(const Box& box_px) {
   if (!frame_px_.contains(box_px.low) || !frame_px_.contains(box_px.high)) return kTaken;
   const Cell low = cell(box_px.low), high = cell(box_px.high).min(cells_ - 1);
@@ -67,7 +67,7 @@ int LabelSpace::cost(const Box& box_px) {
   return avoided;
 }
 
-/// Nobody takes it for the label of another point.
+/// True if no other point is nearer to the box than its own point.
 bool LabelSpace::is_clear(const Box& box_px, const Eigen::Vector2d& own_px) const {
   const auto distance_px = [&](const Eigen::Vector2d& point_px) {
     return (point_px - point_px.cwiseMax(box_px.low).cwiseMin(box_px.high)).norm();

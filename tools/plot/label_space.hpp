@@ -9,24 +9,24 @@
 
 namespace azimuth {
 
-/// Finds room for labels beside their points: inside of a frame, on nothing that is taken, and where there is a choice
-/// off what would be a pity to write on. In cells of a few pixels, so that maps of thousands of landmarks take no time.
+/// Places labels beside their points: inside a frame, not on occupied space, and preferably not on space to avoid. It
+/// uses a grid with cells of a few pixels, so that thousands of landmarks are placed quickly.
 ///
 /// Thread contract: thread-bound.
 class LabelSpace {
  public:
   explicit LabelSpace(const Box& frame_px);
 
-  /// No label may touch these.
+  /// Marks space as occupied: no label may touch it.
   void take(const Box& box_px);
   void take(std::span<const Eigen::Vector2d> line_px);
-  /// Labels rather go elsewhere.
+  /// Marks space that labels avoid if possible.
   void avoid(std::span<const Eigen::Vector2d> line_px);
 
-  /// Something that has a label, or might have: a label stands nearer to its own point than to any other of them.
+  /// Adds a point that has or could have a label. Each label is nearer to its own point than to any other one.
   void add_point(const Eigen::Vector2d& at_px) { points_px_.push_back(at_px); }
 
-  /// Takes room of `size_px` beside `at_px`, at one of the distances, the nearest first. Nothing: there is none.
+  /// Occupies space of `size_px` beside `at_px`. The distances are tried in order. Nothing if there is no space.
   std::optional<Box> place(const Eigen::Vector2d& at_px, const Eigen::Vector2d& size_px,
                            std::span<const double> distances_px);
 

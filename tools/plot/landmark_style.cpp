@@ -33,7 +33,7 @@ Colour colour_of(const PlottedKind& kind, std::size_t number) {
       ->colour;
 }
 
-/// Corners evenly on a circle, the first one at `first_rad` (0: to the right, counter-clockwise).
+/// Corners of a regular polygon, the first one at angle `first_rad` (0: to the right, counter-clockwise).
 std::vector<Eigen::Vector2d> regular(const Eigen::Vector2d& middle, int corners, double first_rad, double radius_px) {
   std::vector<Eigen::Vector2d> points;
   for (int i = 0; i < corners; ++i) {

@@ -7,29 +7,30 @@
 
 namespace azimuth {
 
-/// A sort of landmark, as far as the sensor tells sorts.
+/// A kind of landmark that the sensor distinguishes.
 struct PlottedKind {
   std::string name;
-  std::optional<double> hue_deg;  ///< of the thing itself: red 0, yellow 60, green 120, blue 240
+  std::optional<double> hue_deg;  ///< hue of the real object: red 0, yellow 60, green 120, blue 240
 };
 
 enum class Marker { disc, square, triangle, diamond, pentagon, wedge };
 
-/// Colour and shape together tell kinds apart, so that neither a printer nor an eye needs all colours.
+/// Colour and shape together distinguish kinds, also for monochrome printers and colour-blind users.
 struct LandmarkStyle {
   Colour colour;
   Marker marker = Marker::disc;
 };
 
-/// Landmarks of no known kind.
+/// Style of landmarks of unknown kind.
 LandmarkStyle plain_landmark_style();
-/// Of the kind with this number among all of a picture. Colours are those of Okabe and Ito, told apart by every kind of
-/// colour vision: the one nearest to the kind's own hue, else the next one.
+/// Style of the kind with index `number` in a picture. The colours are those of Okabe and Ito, which stay distinct for
+/// every kind of colour vision. The colour is the one nearest to the kind's hue; without a hue it follows from
+/// `number`.
 LandmarkStyle landmark_style(const PlottedKind& kind, std::size_t number);
 
 void draw_marker(PlotCanvas& canvas, const Eigen::Vector2d& at_px, const LandmarkStyle& style);
 
-/// A marker reaches no farther than this from its middle.
+/// Largest distance of any part of a marker from its centre.
 inline constexpr double kMarkerRadius_px = 6.2;
 
 }  // namespace azimuth

@@ -9,7 +9,7 @@
 
 namespace azimuth {
 
-/// Words beside the symbol that they explain.
+/// A symbol and its explanation.
 struct LegendEntry {
   std::string words;
   std::function<void(PlotCanvas& canvas, const Eigen::Vector2d& centre_px)> symbol;
@@ -17,12 +17,12 @@ struct LegendEntry {
 
 inline constexpr double kLegendRow_px = 34.0;
 
-/// A legend laid out in rows from left to right.
+/// A legend whose entries are arranged in rows from left to right.
 ///
 /// Thread contract: thread-bound.
 class Legend {
  public:
-  /// Measures the words on `canvas`, which may be another one than is drawn on.
+  /// Measures the text on `canvas`, which may be another one than the one for draw().
   Legend(PlotCanvas& canvas, std::vector<LegendEntry> entries, double width_px);
 
   double height_px() const { return kLegendRow_px * static_cast<double>(rows_); }
@@ -34,8 +34,8 @@ class Legend {
   std::size_t rows_ = 0;
 };
 
-/// Row and left end of things of these widths set one beside the other, a new row being begun where the next does not
-/// fit; one that is wider than a row has a row to itself.
+/// Row and left end of an item. flow() arranges items of the given widths side by side and begins a new row if the next
+/// item does not fit. An item wider than a row gets its own row.
 struct RowPlace {
   std::size_t row = 0;
   double left_px = 0.0;

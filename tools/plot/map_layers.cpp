@@ -55,7 +55,7 @@ void MapLayers::draw_line(const PlotLine& line_m, const Colour& colour, double w
   }
 }
 
-/// Fill fades faster than edge, so that the ink of all is about the same.
+/// The fill fades faster than the edge, so that all ellipses need about the same ink.
 void MapLayers::draw_ellipse(const UncertainPoint& point, const Colour& fill, const Colour& edge, double width_px) {
   const double ink = ellipse_ink(semi_major_m(point), view_m_);
   if (ink == 0.0 || !point.p_map_m.allFinite()) return;
@@ -97,7 +97,7 @@ void MapLayers::draw_ends() {
              {std::cos(T_map_body.heading_rad), -std::sin(T_map_body.heading_rad)});
 }
 
-/// Names touch no landmark and no ellipse, and stay off the paths where they can.
+/// Marks landmarks and ellipses as occupied. Names also avoid paths where possible.
 void MapLayers::take_landmarks(LabelSpace& space) const {
   for (const Eigen::Vector2d& landmark : picture_.true_landmarks)
     if (is_shown(landmark)) space.take(box_about(axes_.to_px(landmark), kPlusRadius_px));

@@ -9,12 +9,12 @@
 
 namespace azimuth {
 
-/// The map proper, inside of its axes and back to front.
+/// Draws the map inside its axes, from back to front.
 ///
 /// Thread contract: thread-bound.
 class MapLayers {
  public:
-  /// Borrows all three.
+  /// Borrows all arguments.
   MapLayers(PlotCanvas& canvas, const Axes& axes, const MapPicture& picture);
 
   void draw();
@@ -36,7 +36,7 @@ class MapLayers {
   double view_m_;
 };
 
-/// What MapLayers draws in `shown_m`, each sort once.
+/// One legend entry for each kind of element that MapLayers draws in `shown_m`.
 std::vector<LegendEntry> legend_entries(const MapPicture& picture, const Box& shown_m);
 
 }  // namespace azimuth

@@ -1,4 +1,4 @@
-// What the strokes of a map mean, counted.
+// Legend of a map picture, with counts.
 
 #include <algorithm>
 #include <array>
@@ -22,7 +22,7 @@ LegendEntry line_entry(const std::string& words, const Colour& colour, double wi
           }};
 }
 
-/// An ellipse lying down, as an uncertain point of the legend's own.
+/// Draws a horizontal ellipse as the legend symbol of a covariance.
 void draw_oval(PlotCanvas& canvas, const Eigen::Vector2d& centre_px, const Colour& fill, const Colour& edge,
                double width_px) {
   const UncertainPoint oval{centre_px, Eigen::Vector2d(81.0, 20.0).asDiagonal()};

@@ -1,5 +1,5 @@
 #pragma once
-// The picture of a replay: where the robot was, where it thought it was, and the map it made.
+// The picture of a replay: true path, estimated path and map.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -18,37 +18,37 @@ namespace azimuth {
 /// A piece of the estimated path.
 struct PathPiece {
   PlotLine line;
-  bool lost = false;  ///< the estimator said that it did not know where the robot was
+  bool lost = false;  ///< the estimator was lost
 };
 
 struct PlottedLandmark {
   UncertainPoint point;
-  std::string name;                     ///< written beside it where there is room
-  int kind = -1;                        ///< index into MapPicture::kinds; -1: of none
-  bool is_known = true;                 ///< false: seen from too few places to be relied on
-  std::optional<std::int64_t> id = {};  ///< in the map; nothing where the sensor has a name for it
+  std::string name;                     ///< written beside the landmark if there is space
+  int kind = -1;                        ///< index into MapPicture::kinds; -1: no kind
+  bool is_known = true;                 ///< false if the landmark was seen from too few places to be reliable
+  std::optional<std::int64_t> id = {};  ///< id in the map; nothing if the sensor gives an identity
 };
 
-/// Everything in the map frame, metres. Whatever is empty is left out, also of the legend.
+/// All coordinates are in the map frame, in metres. Empty members are omitted from the picture and the legend.
 struct MapPicture {
   std::string title;
   std::string subtitle;
   std::vector<PathPiece> estimate;
-  std::vector<PlotLine> truth;  ///< in pieces where truth has holes
+  std::vector<PlotLine> truth;  ///< split into pieces at gaps in the truth
   PlotLine odometry;
-  PlotLine calibrated;                ///< odometry with the errors taken out that were found
-  PlotLine smoothed;                  ///< where the robot was, as it is known at the end
-  std::vector<UncertainPoint> poses;  ///< some instants, for their ellipses
+  PlotLine calibrated;                ///< dead reckoning with calibrated odometry
+  PlotLine smoothed;                  ///< smoothed path as known at the end
+  std::vector<UncertainPoint> poses;  ///< selected poses whose ellipses are drawn
   std::vector<PlottedKind> kinds;
   std::vector<PlottedLandmark> landmarks;
   std::string landmark_word = "landmark";
   std::vector<Eigen::Vector2d> true_landmarks;
   std::string true_landmark_words = "true landmark";
-  std::optional<Pose2> T_map_body;  ///< of the robot at the end
+  std::optional<Pose2> T_map_body;  ///< final pose of the robot
 };
 
-/// Writes a picture 1600 pixels wide, as the ending of the file's name says: see plot_format(). The reason when it
-/// fails.
+/// Writes a picture of 1600 pixels width. The file name extension determines the format: see plot_format(). Returns the
+/// reason if it fails.
 [[nodiscard]] std::optional<std::string> write_map_picture(const MapPicture& picture,
                                                            const std::filesystem::path& file);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Internal to tools/plot: how each sort of thing in a map looks, on the map and in its legend.
+// Internal to tools/plot: appearance of the elements of a map, in the map and in the legend.
 
 #include <Eigen/Core>
 
@@ -8,7 +8,7 @@
 
 namespace azimuth {
 
-// Colours of Okabe and Ito, told apart by every kind of colour vision; truth is grey so that it stands back.
+// Colours of Okabe and Ito, which stay distinct for every kind of colour vision. Truth is grey to be less prominent.
 inline constexpr Colour kPaperColour{1.0, 1.0, 1.0};
 inline constexpr Colour kInkColour{0.13, 0.14, 0.16};
 inline constexpr Colour kFaintColour{0.40, 0.42, 0.45};
@@ -26,12 +26,12 @@ inline constexpr double kPlusRadius_px = 9.0, kRobotRadius_px = 22.0;
 
 LandmarkStyle style_of(const MapPicture& picture, const PlottedLandmark& landmark);
 
-/// A true landmark.
+/// The symbol of a true landmark.
 void draw_plus(PlotCanvas& canvas, const Eigen::Vector2d& at_px);
-/// A landmark of which little more than the direction is known.
+/// The symbol of a landmark whose distance is hardly known.
 void draw_hardly_known(PlotCanvas& canvas, const Eigen::Vector2d& at_px);
 void draw_start(PlotCanvas& canvas, const Eigen::Vector2d& at_px);
-/// An arrow head that points where the robot looks (`direction` in pixels, so y down).
+/// An arrow head in the robot's heading. `direction` is in pixels, so y points down.
 void draw_robot(PlotCanvas& canvas, const Eigen::Vector2d& at_px, const Eigen::Vector2d& direction);
 
 }  // namespace azimuth

@@ -10,7 +10,7 @@
 namespace azimuth {
 namespace {
 
-/// What is certain to have been there: truth, else the estimate as far as it was one.
+/// Extent of the reliable path: truth, otherwise the estimate without lost pieces.
 Extent trusted_extent(const MapPicture& picture) {
   Extent trusted;
   for (const PlotLine& piece : picture.truth) trusted.include(piece);
@@ -21,8 +21,8 @@ Extent trusted_extent(const MapPicture& picture) {
   return trusted;
 }
 
-/// Landmarks around `trusted` that are known to a small part of its size. One far off stays outside, rather than make
-/// room that shows nothing else.
+/// Extent of the landmarks around `trusted` whose uncertainty is small relative to its size. Distant landmarks stay
+/// outside, so that the view has no large empty areas.
 Extent known_landmarks(const MapPicture& picture, const Extent& trusted) {
   constexpr double kCertain = 0.2, kReach = 0.6;
   const double size_m = trusted.empty ? 0.0 : trusted.size_m().maxCoeff();

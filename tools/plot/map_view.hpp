@@ -1,5 +1,5 @@
 #pragma once
-// What part of a map is shown, and what that leaves out.
+// Chooses the visible part of a map and counts the elements outside.
 
 #include <cstddef>
 #include <string>
@@ -9,16 +9,16 @@
 
 namespace azimuth {
 
-/// Truth and where the robot was, and what is near that. Neither odometry that drifted off, nor a lost robot, nor a
-/// landmark that is hardly known makes the rest small.
+/// The visible part: the true or estimated path and its surroundings. Drifted odometry, paths of a lost robot and
+/// inaccurate landmarks do not enlarge the view.
 Extent view_of(const MapPicture& picture);
 
-/// Whether the place of a landmark means something in a view whose shorter side is `view_m` long.
+/// True if a landmark is accurate enough to be meaningful in a view whose shorter side has length `view_m`.
 bool is_well_known(const PlottedLandmark& landmark, double view_m);
 
-/// What is not in a picture, though it was handed over.
+/// Numbers of elements of the picture that are not visible, out of how many.
 struct LeftOut {
-  std::size_t landmarks = 0, of_landmarks = 0;  ///< that lie outside of the frame
+  std::size_t landmarks = 0, of_landmarks = 0;  ///< landmarks outside the frame
   std::size_t true_landmarks = 0;
   std::size_t estimates = 0, of_estimates = 0;
   std::size_t odometry = 0, of_odometry = 0;
@@ -28,7 +28,7 @@ struct LeftOut {
 
 LeftOut left_out(const MapPicture& picture, const Box& shown_m);
 
-/// For a person; empty when everything is there.
+/// Text for the user; empty if everything is visible.
 std::string words(const LeftOut& left_out, const std::string& landmark_word);
 
 }  // namespace azimuth

@@ -4,10 +4,10 @@
 
 namespace azimuth {
 
-/// What a picture is written as: pixels, or strokes that stay sharp at any size.
+/// Format of a picture: PNG (pixels), SVG or PDF (vector graphics).
 enum class PlotFormat { png, svg, pdf };
 
-/// By the ending of the file's name, whatever its case; nothing when it is another one.
+/// The format by the file name extension, in upper or lower case; nothing for other extensions.
 std::optional<PlotFormat> plot_format(const std::filesystem::path& file);
 
 }  // namespace azimuth

@@ -5,27 +5,27 @@
 #include <vector>
 
 #include "drivers/camera/run_images.hpp"
+#include "drivers/picture/picture.hpp"
 #include "drivers/storage/run.hpp"
-#include "picture/picture.hpp"
 #include "slam/estimator/estimator.hpp"
 #include "slam/sample/expected_bearing.hpp"
 
 namespace azimuth {
 
-/// Draws every n-th image of a run, with what was seen in it and what the estimator expected, into a folder:
-/// 000000.jpg and so on, by the image's number in the run.
+/// Writes every n-th image of a run to a folder, overlaid with its detections and with the bearings that the estimator
+/// expected. File names are the image's number in the run: 000000.jpg and so on.
 ///
 /// Thread contract: thread-bound. Borrows the run.
 class PictureFolder {
  public:
-  /// The folder is there already. `every` is at least 1.
+  /// `folder` must exist. `every` is at least 1.
   PictureFolder(const Run& run, const CameraRig& rig, std::filesystem::path folder, std::size_t every);
 
-  /// To be called before each update. Sets that are of no image of the run are passed over.
+  /// Must be called before each update. Ignores bearing sets that do not belong to an image of the run.
   void before_update(const BearingSet& set, const Estimator& estimator);
 
   std::size_t written() const { return written_; }
-  /// Why a picture could not be written, the first of them; empty: all were.
+  /// The first error on writing a picture; empty if there is none.
   const std::string& problem() const { return problem_; }
 
  private:

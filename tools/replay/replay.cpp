@@ -18,7 +18,7 @@ class Replay {
         stage_(std::make_unique<TimedEstimator>(std::move(estimator), result_.times.update_us), rig, settings,
                run.since_map) {}
 
-  /// Borrows it.
+  /// Borrows `watch`.
   void watch(const ReplayWatch& watch) {
     watch_ = &watch;
     if (!watch.before_update) return;
@@ -89,7 +89,7 @@ class Replay {
     used_ = used;
   }
 
-  /// What the set of this step had cost before; sets that never made a step are passed over.
+  /// Time that the front end took for the bearing set of this step. Skips sets that made no step.
   double cost_of(Stamp stamp) {
     while (!costs_.empty() && costs_.front().stamp < stamp) costs_.pop_front();
     if (costs_.empty() || costs_.front().stamp != stamp) return 0.0;
@@ -104,15 +104,15 @@ class Replay {
   };
 
   const Run& run_;
-  ReplayResult result_;  // before the stage, whose estimator writes its times into it
+  ReplayResult result_;  // declared before the stage, whose estimator writes its times to it
   double yaw_offset_rad_;
   EstimatorStage stage_;
   EstimateDigest digest_;
   std::deque<Cost> costs_;
   const ReplayWatch* watch_ = nullptr;
-  double looked_on_us_ = 0.0;  // within the step under way
+  double looked_on_us_ = 0.0;  // time of the observers within the present step
   std::size_t reading_ = 0;
-  std::uint64_t used_ = 0;  // bearings
+  std::uint64_t used_ = 0;  // number of used bearings
 };
 
 }  // namespace

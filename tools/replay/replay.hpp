@@ -1,5 +1,5 @@
 #pragma once
-// A run through the very stage the daemon runs, without threads and as fast as it goes.
+// Processes a run with the same EstimatorStage as the daemon, without threads and as fast as possible.
 
 #include <cstdint>
 #include <functional>
@@ -23,45 +23,45 @@
 
 namespace azimuth {
 
-/// What became of a run's images.
+/// Statistics of a run's images.
 struct ImageOutcome {
-  std::size_t images = 0;                        ///< 0: the run brought bearings
-  std::map<ImageTrouble, std::size_t> troubles;  ///< of sets, recorded ones included; `none` is not counted
-  std::string first_unreadable;                  ///< file and reason; empty: all could be read
+  std::size_t images = 0;                        ///< 0 if the run contains bearings instead of images
+  std::map<ImageTrouble, std::size_t> troubles;  ///< numbers of bearing sets by trouble, except `none`
+  std::string first_unreadable;                  ///< file and reason; empty if all images were readable
 };
 
 struct ReplayResult {
   std::vector<EstimateRecord> estimates;  ///< one for each step
-  std::vector<StepHealth> healths;        ///< likewise
-  std::vector<SightingRecord> sightings;  ///< accepted, in the robot's frame
-  Estimate last;                          ///< with the final map; as constructed when there was no step
-  std::vector<PastPose> past;             ///< in hindsight; empty: the estimator has none
-  std::optional<MapSnapshot> map;         ///< the final one; nothing: there is none worth keeping
+  std::vector<StepHealth> healths;        ///< one for each step
+  std::vector<SightingRecord> sightings;  ///< accepted bearings in the robot's frame
+  Estimate last;                          ///< last estimate with the final map; default value if there was no step
+  std::vector<PastPose> past;             ///< smoothed path; empty if the estimator provides none
+  std::optional<MapSnapshot> map;         ///< final map; nothing if the estimator saves none
   std::uint64_t digest = 0;               ///< see EstimateDigest
-  SampleFinding samples;                  ///< what kept them from being of use
+  SampleFinding samples;                  ///< reasons why samples were unusable
   StepTimes times;
   ImageOutcome images;
 };
 
-/// Who looks on; either may be empty. What they take is no part of a step's time.
+/// Observers of a replay; each may be empty. Their computing time does not count as time of a step.
 struct ReplayWatch {
   EstimatorStage::BeforeUpdate before_update = {};
   std::function<void(const Estimate&)> after_step = {};
 };
 
-/// What is made of the past at the end.
+/// Treatment of the past at the end of the run.
 enum class Ending : std::uint8_t {
-  as_in_the_daemon,  ///< nothing: past and map are what the last step left
-  concluded,         ///< all that there is to know: see Estimator::conclude(); `last` has its landmarks then
+  as_in_the_daemon,  ///< no further optimisation: past and map are those after the last step
+  concluded,         ///< final optimisation by Estimator::conclude(); `last` then contains the resulting landmarks
 };
 
-/// `progress` counts the bearing sets, or images, that have been given to the estimator. Truth is not looked at. Same
-/// run, rig and estimator: the same estimates to the last bit; only times differ.
+/// `progress` counts the bearing sets or images given to the estimator. Truth is not used. The same run, rig and
+/// estimator give bit-identical estimates; only times differ.
 ReplayResult replay(const Run& run, const Rig& rig, std::unique_ptr<Estimator> estimator, const StageSettings& settings,
                     const Progress& progress = {}, Ending ending = Ending::as_in_the_daemon,
                     const ReplayWatch& watch = {});
 
-/// The same with the bearings that `front_end` finds in the run's images, one image at a time.
+/// As replay(), with the bearings that `front_end` detects in the run's images.
 ReplayResult replay_images(const Run& run, const Rig& rig, ImageFrontEnd front_end,
                            std::unique_ptr<Estimator> estimator, const StageSettings& settings,
                            const Progress& progress = {}, Ending ending = Ending::as_in_the_daemon,

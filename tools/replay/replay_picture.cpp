@@ -14,9 +14,9 @@
 namespace azimuth {
 namespace {
 
-constexpr std::size_t kMostKinds = 64;  // worth an entry in a legend
+constexpr std::size_t kMostKinds = 64;  // limit of the kinds in the legend
 
-/// True path in pieces, broken where truth is missing for longer than the report bridges.
+/// The true path in pieces, split at gaps in the truth longer than kMaxTruthGap_s.
 std::vector<PlotLine> truth_lines(const Run& run, const Pose2& T_map_world) {
   std::vector<PlotLine> pieces;
   for (std::size_t i = 0; i < run.truth.size(); ++i) {
@@ -27,7 +27,7 @@ std::vector<PlotLine> truth_lines(const Run& run, const Pose2& T_map_world) {
   return pieces;
 }
 
-/// About thirty poses along the way, for their ellipses: more would hide the path.
+/// About thirty poses along the path for covariance ellipses. More ellipses would hide the path.
 std::vector<UncertainPoint> some_poses(const std::vector<EstimateRecord>& estimates) {
   constexpr std::size_t kPoses = 30;
   const std::size_t stride = std::max<std::size_t>(1, estimates.size() / kPoses);
@@ -37,7 +37,8 @@ std::vector<UncertainPoint> some_poses(const std::vector<EstimateRecord>& estima
   return poses;
 }
 
-/// Names judge more strictly than nearness: a picture must not praise a map that has its landmarks mixed up.
+/// Caption on the map error. It uses the pairing by identity if possible, since the pairing by position does not detect
+/// confused landmarks.
 std::string map_quality(const Report& report) {
   const bool by_name = report.named_map.named > 0;
   const std::size_t mapped = by_name ? report.named_map.named : report.map.matched;
@@ -53,8 +54,8 @@ std::string subtitle(const Report& report) {
                      report.odometry_m.rmse, map, map_quality(report));
 }
 
-/// In pieces by whether the robot was lost. What is driven until the robot finds itself lost belongs to the lost
-/// stretch; that it is found is a jump, which is no path.
+/// The estimated path in pieces, by whether the robot was lost. The segment that leads to the first lost pose belongs
+/// to the lost piece. The jump at relocalisation is not drawn.
 std::vector<PathPiece> estimated_path(const ReplayResult& result) {
   std::vector<PathPiece> pieces;
   for (std::size_t i = 0; i < result.estimates.size(); ++i) {
@@ -69,14 +70,14 @@ std::vector<PathPiece> estimated_path(const ReplayResult& result) {
   return pieces;
 }
 
-/// The middle of its hues; none of a class that takes all of them.
+/// The middle of the class's hue range; nothing if the class accepts all hues.
 std::optional<double> hue_deg(const ColourClass& colours) {
   const double span_deg = colours.hue_to_deg - colours.hue_from_deg;
   if (span_deg >= 360.0) return std::nullopt;
   return std::fmod(colours.hue_from_deg + (span_deg < 0.0 ? span_deg + 360.0 : span_deg) / 2, 360.0);
 }
 
-/// What a saved map would tell of a landmark; none of one that it leaves out.
+/// Landmarks by id as a saved map would contain them.
 using Settled = std::map<std::int64_t, const MapLandmark*>;
 
 Settled settled(const ReplayResult& result) {
@@ -95,7 +96,7 @@ std::vector<PlottedKind> kinds_of(const Settled& landmarks, std::span<const Colo
   return kinds;
 }
 
-/// The sensor's name for it, else its number, which is that of the map file.
+/// The sensor's identity of the landmark, otherwise its id, which the map file also uses.
 std::string name_of(const LandmarkEstimate& landmark) {
   return fmt::format("{}", landmark.identity == kUnknownIdentity ? landmark.id : landmark.identity);
 }

@@ -9,8 +9,8 @@
 
 namespace azimuth {
 
-/// The map of a replay in the map frame: truth comes in by the report's alignment, odometry starts where the first
-/// estimate does. `classes` name the kinds of a colour front end, in their order; other kinds have numbers only.
+/// Picture of a replay in the map frame. Truth is transformed with the report's alignment; odometry starts at the first
+/// estimate. `classes` give names to the kinds of a colour front end, in order; other kinds have only numbers.
 MapPicture replay_picture(const Run& run, const ReplayResult& result, const Report& report,
                           std::span<const ColourClass> classes = {});
 

@@ -22,7 +22,7 @@ ImagesReport images_report(const ImageOutcome& outcome) {
   return report;
 }
 
-/// A restarted odometer's first reading drives nothing.
+/// Distance driven at each reading. The first reading after a restart of odometry adds no distance.
 std::vector<DrivenBy> driven(const std::vector<OdometryReading>& readings, double scale) {
   std::vector<DrivenBy> driven;
   driven.reserve(readings.size());
@@ -37,7 +37,7 @@ std::vector<DrivenBy> driven(const std::vector<OdometryReading>& readings, doubl
   return driven;
 }
 
-/// As it came, but that one that begins anew goes on where it was.
+/// Raw odometry poses, continuous over restarts of odometry.
 std::vector<StampedPose> joined(const std::vector<OdometryReading>& readings) {
   std::vector<StampedPose> poses;
   poses.reserve(readings.size());
@@ -52,7 +52,7 @@ std::vector<StampedPose> joined(const std::vector<OdometryReading>& readings) {
   return poses;
 }
 
-/// What others said on channels of theirs is nothing that is missing.
+/// Text on the unreadable part of the recording. Events on channels of other programs do not count.
 std::string incomplete(Skipped skipped) {
   skipped.foreign_events = 0;
   return skipped.text();

@@ -12,19 +12,19 @@
 
 namespace azimuth {
 
-/// Puts a run and what was made of it side by side for evaluate(). `estimator` is the configured name.
+/// Combines a run and its replay for evaluate(). `estimator` is the configured name.
 ReplayRecord replay_record(const Run& run, const Rig& rig, const std::string& estimator, std::uint64_t seed,
                            const ReplayResult& result);
 
-// The words rig.toml uses.
+// Names of front ends as in rig.toml.
 std::string front_end_name(FrontEnd front_end);
 std::optional<FrontEnd> front_end_named(std::string_view name);
 std::vector<std::string> front_end_names();
 
-/// Most memory this process has had so far, in megabytes of 10^6 bytes.
+/// Peak memory of this process, in megabytes of 10^6 bytes.
 double peak_memory_mb();
 
-/// Memory of this process now, in 10^6 bytes; not a number where the kernel does not say.
+/// Present memory of this process, in megabytes of 10^6 bytes; NaN if the kernel does not report it.
 double resident_memory_mb();
 
 }  // namespace azimuth

@@ -26,7 +26,7 @@ bool SeenSets::next(BearingSet& out) {
   return true;
 }
 
-/// No bytes: it cannot be used, which is noted.
+/// The next image; no bytes if it is unusable, in which case the reason is recorded.
 ImageView SeenSets::next_image() {
   const StopWatch watch;
   ImageView image = images_.pixels(next_, decoded_);
@@ -47,7 +47,8 @@ void SeenSets::observe(const ImageView& image, BearingSet& out) {
   if (!image.bytes.empty()) detect_us_.push_back(watch.elapsed_us());
 }
 
-/// Directions are worked out for images of one size. Empty: it is of that size, or the rig names none.
+/// Error text if the image does not have the rig's size, for which the camera model is valid. Empty if the size is
+/// right or if the rig states none.
 std::string SeenSets::size_problem(const FrameFormat& format) const {
   if (is_size_of(format, rig_)) return {};
   return fmt::format("is {} x {}, but the rig's camera gives {} x {}", format.width_px, format.height_px,

@@ -1,5 +1,5 @@
 #pragma once
-// Where a replay's bearing sets come from: recorded ones, or the images of the run by way of a front end.
+// Sources of bearing sets for a replay: recorded sets, or images processed by a front end.
 
 #include <cstddef>
 #include <memory>
@@ -21,13 +21,13 @@ class SetSource {
   virtual ~SetSource() = default;
 
   virtual std::size_t count() const = 0;
-  /// Replaces what `out` holds by the next set; false when that was all.
+  /// Replaces the content of `out` by the next set; false if there is none.
   virtual bool next(BearingSet& out) = 0;
-  /// What it took to find the last set, from the image on; 0 for what was found before.
+  /// Time that the front end took for the last set; 0 for recorded sets.
   virtual double last_us() const { return 0.0; }
 };
 
-/// Bearings as they were recorded. Borrows the run.
+/// Recorded bearing sets. Borrows the run.
 class RecordedSets final : public SetSource {
  public:
   explicit RecordedSets(const Run& run) : run_(run) {}
@@ -39,14 +39,14 @@ class RecordedSets final : public SetSource {
   std::size_t next_ = 0;
 };
 
-/// The front end that looks at a run's images.
+/// The front end that processes a run's images.
 struct ImageFrontEnd {
   std::unique_ptr<Perception> perception;
   PixelFormat decoded = PixelFormat::rgb8;  ///< see decoded_format()
 };
 
-/// Bearings found in the run's images. One that is missing, damaged or not of the rig's size gives an empty set whose
-/// trouble says so. Borrows the run.
+/// Bearing sets detected in the run's images. An image that is missing, damaged or not of the rig's size gives an empty
+/// set with the corresponding trouble. Borrows the run.
 class SeenSets final : public SetSource {
  public:
   SeenSets(const Run& run, const ImageRig& rig, ImageFrontEnd front_end);
@@ -55,9 +55,9 @@ class SeenSets final : public SetSource {
   bool next(BearingSet& out) override;
   double last_us() const override { return last_us_; }
 
-  const std::vector<double>& decode_us() const { return decode_us_; }  ///< of each image, reading the file included
-  const std::vector<double>& detect_us() const { return detect_us_; }  ///< of each image that could be looked at
-  /// File and reason of the first image that could not be read; empty: there was none.
+  const std::vector<double>& decode_us() const { return decode_us_; }  ///< for each image, including reading the file
+  const std::vector<double>& detect_us() const { return detect_us_; }  ///< for each usable image
+  /// File and reason of the first unreadable image; empty if there is none.
   const std::string& first_unreadable() const { return first_unreadable_; }
 
  private:

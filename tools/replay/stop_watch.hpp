@@ -3,7 +3,7 @@
 
 namespace azimuth {
 
-/// Runs from its construction on.
+/// Measures the time since its construction.
 class StopWatch {
  public:
   double elapsed_us() const {

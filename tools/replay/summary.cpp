@@ -17,13 +17,13 @@ double duration_s(const Run& run) {
   return run.odometry.empty() ? 0.0 : to_seconds(run.odometry.back().stamp - run.odometry.front().stamp);
 }
 
-/// What the estimator was given.
+/// The input of the estimator.
 std::string sets_summary(const Run& run, const ImageOutcome& images) {
   return images.images > 0 ? fmt::format("{} images", images.images)
                            : fmt::format("{} bearing sets", run.bearings.size());
 }
 
-/// A line for each sort of trouble.
+/// One line for each kind of image trouble.
 std::string trouble_summary(const ImageOutcome& images) {
   std::string text;
   for (const auto& [trouble, count] : images.troubles) {
@@ -66,7 +66,7 @@ std::string health_time(Health health, const HealthTime& time) {
 
 constexpr double kShown_s = 0.05;
 
-/// How far the run could be relied on.
+/// Health over time.
 std::string health_summary(const HealthReport& report) {
   if (!std::isfinite(report.blind.longest_s)) return "";
   std::string healths;
@@ -88,7 +88,8 @@ bool has_names(const Run& run) {
   });
 }
 
-/// A name says which landmark was seen, so a gate that refuses its bearing means that something else is wrong.
+/// True if the gate rejects many bearings with identities. Since the identity gives the data association, such
+/// rejections mean that something else is wrong.
 bool many_names_refused(const Run& run, const AssociationCounts& counts) {
   constexpr double kMany = 0.05;
   constexpr std::uint64_t kEnoughToJudge = 20;
@@ -97,11 +98,10 @@ bool many_names_refused(const Run& run, const AssociationCounts& counts) {
          has_names(run);
 }
 
-/// What to do about a run that brought samples enough, and still was of little use, or whose samples contradict each
-/// other.
+/// Advice for a run that has enough samples but gives poor results, or whose samples contradict each other.
 std::string why_not_consistent(const Run& run, const Report& report, const AssociationCounts& counts) {
   constexpr double kLittle = 0.5;
-  constexpr double kMuch = 6.0;  // twice what is ideal
+  constexpr double kMuch = 6.0;  // twice the ideal ANEES
   constexpr std::size_t kEnoughToJudge = 20;
   const HealthReport& health = report.health_over_time;
   const bool told = !report.input_trouble.empty() || !std::isfinite(health.blind.longest_s);
@@ -117,14 +117,31 @@ std::string why_not_consistent(const Run& run, const Report& report, const Assoc
   return "";
 }
 
-std::string hint_summary(const Run& run, const Report& report, const AssociationCounts& counts,
-                         std::string_view run_path) {
-  const std::string why = why_not_consistent(run, report, counts);
-  if (why.empty()) return "";
-  return line("hint", fmt::format("{}: `azimuth check {}` says whether rig and recording can be right", why, run_path));
+std::string without_doubt(const Report& report) {
+  std::string text =
+      fmt::format("tracking for {:.0f} % of the time", 100.0 * report.health_over_time.of(Health::tracking).share);
+  if (report.tracking_consistency.evaluated > 0)
+    return text + fmt::format(", errors no larger than was said (ANEES {:.1f} while tracking, 3 is ideal)",
+                              report.tracking_consistency.anees);
+  return text + "; there is no truth to compare with";
 }
 
-/// How many landmarks were paired with true ones, and how well they fit.
+/// The run in one sentence, and the one command to go on with.
+std::string verdict(const Run& run, const Report& report, const AssociationCounts& counts, std::string_view run_path,
+                    bool refined) {
+  if (!std::isfinite(report.health_over_time.blind.longest_s)) return "";  // nothing was estimated: "trouble" says why
+  if (const std::string why = why_not_consistent(run, report, counts); !why.empty())
+    return line("verdict", why) +
+           line("next", fmt::format("`azimuth check {}` says whether rig and recording can be right", run_path));
+  if (!report.input_trouble.empty() || counts.accepted + counts.rejected == 0) return "";
+  return line("verdict", without_doubt(report)) +
+         line("next",
+              refined
+                  ? fmt::format("`azimuth map refine {} --map FILE` saves the map for a robot to start from", run_path)
+                  : fmt::format("`azimuth map refine {}` improves path and map by the whole drive", run_path));
+}
+
+/// Number and position error of the landmarks paired with true ones.
 std::string paired(std::size_t matched, const ErrorStatistics& errors_m, std::size_t true_landmarks) {
   std::string text = fmt::format("{} of {} true landmarks", matched, true_landmarks);
   if (matched > 0) text += fmt::format(", rmse {:.3f} m, max {:.3f} m", errors_m.rmse, errors_m.max);
@@ -212,7 +229,7 @@ std::string pose_summary(const Report& report) {
   return text;
 }
 
-/// What is known of the whole path at the end.
+/// Accuracy of the smoothed path.
 std::string hindsight_summary(const Report& report) {
   if (!report.hindsight || report.hindsight->position_m.count == 0) return "";
   const HindsightReport& hindsight = *report.hindsight;
@@ -223,7 +240,8 @@ std::string hindsight_summary(const Report& report) {
   return line("hindsight", text);
 }
 
-std::string summary(const Run& run, const ReplayResult& result, const Report& report, std::string_view run_path) {
+std::string summary(const Run& run, const ReplayResult& result, const Report& report, std::string_view run_path,
+                    bool refined) {
   std::string text = run_summary(run, result.images);
   if (!report.input_trouble.empty()) text += line("trouble", report.input_trouble);
   if (const std::string restarts = restart_sentence(run.odometry); !restarts.empty()) text += line("restart", restarts);
@@ -242,7 +260,7 @@ std::string summary(const Run& run, const ReplayResult& result, const Report& re
   if (!result.times.detect_us.empty()) text += time_summary("detect time", report.detect);
   if (report.steps > 0) text += time_summary("step time", report.step);
   if (const std::string slow = why_too_slow(report); !slow.empty()) text += line("too slow", slow);
-  return text + line("digest", report.digest) + hint_summary(run, report, result.last.association, run_path);
+  return text + line("digest", report.digest) + verdict(run, report, result.last.association, run_path, refined);
 }
 
 }  // namespace azimuth

@@ -8,16 +8,16 @@
 
 namespace azimuth {
 
-/// The report for a reader: a line a topic, only topics that were measured. It ends with what to do next where the run
-/// contradicts itself or its rig; `run_path` is what to call the run by there.
-std::string summary(const Run& run, const ReplayResult& result, const Report& report,
-                    std::string_view run_path = "RUN");
+/// The report as text for the user: one line per measured topic, then a verdict in one sentence and the one command to
+/// go on with, in which `run_path` names the run. `refined`: the poses are those of `azimuth map refine`.
+std::string summary(const Run& run, const ReplayResult& result, const Report& report, std::string_view run_path = "RUN",
+                    bool refined = false);
 
-/// How many landmarks there are at the end, and how many of them are known well enough for a saved map to keep them:
-/// "24 landmarks, 22 of them settled".
+/// Number of landmarks at the end, and number of those accurate enough for a saved map. Example: "24 landmarks, 22 of
+/// them settled".
 std::string landmark_counts(const Report& report);
 
-/// The part of it that judges poses, also of a trajectory made by others.
+/// The part of the summary on poses, also for trajectories of other programs.
 std::string pose_summary(const Report& report);
 
 }  // namespace azimuth

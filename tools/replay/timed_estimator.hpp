@@ -6,10 +6,10 @@
 
 namespace azimuth {
 
-/// An estimator with a stop watch on update().
+/// Wraps an estimator and measures the time of update().
 class TimedEstimator final : public Estimator {
  public:
-  /// `update_us` gets the duration of each update() and must outlive this object.
+  /// `update_us` receives the duration of each update() and must outlive this object.
   TimedEstimator(std::unique_ptr<Estimator> estimator, std::vector<double>& update_us);
 
   bool odometry_begins(bool goes_on) override { return estimator_->odometry_begins(goes_on); }

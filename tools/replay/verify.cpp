@@ -17,7 +17,7 @@ constexpr std::array<const char*, kNumbers> kNames{"x_m",           "y_m",      
                                                    "covariance[5]", "covariance[6]", "covariance[7]",   "covariance[8]",
                                                    "odom_x_m",      "odom_y_m",      "odom_heading_rad"};
 
-/// What the message says of a pose, in its order.
+/// The numbers of a recorded pose in the order of the message.
 std::array<double, kNumbers> numbers(const RecordedPose& pose) {
   const Pose2 &map = pose.T_map_body, &odom = pose.T_odom_body;
   std::array<double, kNumbers> out{map.x_m, map.y_m, map.heading_rad};
@@ -37,7 +37,7 @@ RecordedPose as_recorded(const EstimateRecord& estimate) {
   return pose;
 }
 
-/// The first number that differs in any bit, in words; empty: none.
+/// Description of the first number that differs in any bit; empty if there is none.
 std::string difference(const RecordedPose& recorded, const EstimateRecord& replayed) {
   const auto a = numbers(recorded), b = numbers(as_recorded(replayed));
   for (std::size_t i = 0; i < kNumbers; ++i) {
@@ -47,7 +47,8 @@ std::string difference(const RecordedPose& recorded, const EstimateRecord& repla
   return {};
 }
 
-/// Of the steps with the pose's stamp (images may share one) the one that comes nearest to it.
+/// Compares the pose with the steps of the same stamp, of which there may be several, and returns an empty text if one
+/// is identical.
 std::string difference(const RecordedPose& recorded, const std::vector<EstimateRecord>& estimates) {
   const auto begin = std::ranges::lower_bound(estimates, recorded.stamp, {}, &EstimateRecord::stamp);
   std::string first = "no replayed step has its stamp";

@@ -8,14 +8,14 @@
 
 namespace azimuth {
 
-/// How far a replay gave the poses that the daemon had published, to the last bit.
+/// Bit-exact comparison of replayed poses with the poses that the daemon published.
 struct Verification {
   std::size_t recorded = 0;
   std::size_t identical = 0;
-  std::string first_difference;  ///< of the first pose that is not identical, in words; empty when there is none
+  std::string first_difference;  ///< description of the first pose that differs; empty if there is none
 
   bool passed() const { return recorded == identical; }
-  std::string text() const;  ///< "400 of 400 recorded poses identical", and the first difference if there is one
+  std::string text() const;  ///< for example "400 of 400 recorded poses identical", with the first difference, if any
 };
 
 /// Compares each recorded pose with the replayed step of the same stamp: position, heading, covariance and odometry

@@ -17,7 +17,7 @@ bool has_name(const MapLandmark& landmark, MapNames names) {
   return names == MapNames::sensor && landmark.identity != kUnknownIdentity;
 }
 
-/// The sensor's name for it, else its number.
+/// The sensor's identity of the landmark, otherwise its id.
 std::string name_of(const MapLandmark& landmark, MapNames names) {
   return fmt::format("{}", has_name(landmark, names) ? landmark.identity : landmark.id);
 }

@@ -6,7 +6,7 @@
 
 namespace azimuth {
 
-/// A saved map as the page of a replay shows a run (page_run()): nothing was driven, its columns are empty.
+/// A saved map in the same form as page_run(), with empty columns since there is no drive.
 nlohmann::ordered_json page_of_map(const MapSnapshot& map, const std::string& name);
 
 }  // namespace azimuth

@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 constexpr double kPointUnit_m = 1e-3;
 constexpr std::size_t kMostPathPoints = 6000;
 
-/// In the order of the enumeration.
+/// Names in the order of the enumeration Marker.
 constexpr std::array<std::string_view, 6> kMarkers{"disc", "square", "triangle", "diamond", "pentagon", "wedge"};
 
 Json point(const Eigen::Vector2d& p_m) {
@@ -38,7 +38,7 @@ Json style(const LandmarkStyle& style, std::string_view name) {
       {"name", name}, {"colour", hex(style.colour)}, {"marker", kMarkers.at(static_cast<std::size_t>(style.marker))}};
 }
 
-/// The first of them for landmarks of no known kind.
+/// The styles of the kinds. The first one is for landmarks of unknown kind.
 Json kinds(const MapPicture& picture) {
   Json json = Json::array();
   json.push_back(style(plain_landmark_style(), ""));
@@ -47,8 +47,8 @@ Json kinds(const MapPicture& picture) {
   return json;
 }
 
-/// Where no landmark has a name of its own people count those of the map in the order of their ids: those that did not
-/// stay had some, too.
+/// Names of landmarks on a page. If no landmark has an identity, landmarks are numbered from 1 in the order of their
+/// ids, since ids have gaps from deleted landmarks.
 class PageNames {
  public:
   explicit PageNames(const MapPicture& picture) {
@@ -97,7 +97,7 @@ Json page_number(double value, double unit) {
   if (unit == 0.0) return value == 0.0 ? Json(0) : Json(std::stod(fmt::format("{:.5g}", value)));
   const double rounded = std::round(value / unit);
   if (unit == 1.0) return static_cast<std::int64_t>(rounded);
-  return rounded / std::round(1.0 / unit) + 0.0;  // no -0
+  return rounded / std::round(1.0 / unit) + 0.0;  // turns -0 into 0
 }
 
 Json page_map(const MapPicture& picture) {

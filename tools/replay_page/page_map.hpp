@@ -5,14 +5,14 @@
 
 namespace azimuth {
 
-/// Landmarks of a page at most; of more those that are known best.
+/// Largest number of landmarks on a page. If there are more, the most accurate ones are shown.
 inline constexpr std::size_t kMostPageLandmarks = 5000;
 
-/// The map at the end, true landmarks, and the path in hindsight (thinned), as the picture of --plot has them: in the
-/// map frame, metres, covariances in square metres.
+/// The final map, the true landmarks and the thinned smoothed path, as in the picture of --plot: in the map frame, in
+/// metres, covariances in square metres.
 nlohmann::ordered_json page_map(const MapPicture& picture);
 
-/// Rounded to a multiple of `unit`, or to five significant digits where that is 0; null of what is no number.
+/// The value rounded to a multiple of `unit`, or to five significant digits if `unit` is 0; null if it is not finite.
 nlohmann::ordered_json page_number(double value, double unit = 0.0);
 
 }  // namespace azimuth

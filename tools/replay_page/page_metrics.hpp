@@ -1,5 +1,5 @@
 #pragma once
-// What a page says of runs in one table, so that they can be compared.
+// The figures of a run in the comparison table of a page.
 
 #include <string>
 #include <string_view>
@@ -10,19 +10,19 @@
 namespace azimuth {
 
 struct PageMetric {
-  /// Which of two values is the better one.
+  /// Rule for which of two values is better.
   enum class Better { neither, lower, higher, nearer_to_three };
 
-  std::string_view key;    ///< the same of every run
-  std::string_view label;  ///< for people
-  std::string_view unit;   ///< empty: a plain number
+  std::string_view key;    ///< identifier, equal for all runs
+  std::string_view label;  ///< name for the user
+  std::string_view unit;   ///< empty for a plain number
   double value = kNotMeasured;
   int decimals = 0;
   Better better = Better::neither;
-  std::string note = {};  ///< for people: what it is of
+  std::string note = {};  ///< explanation for the user
 };
 
-/// Only what was measured.
+/// The measured figures of the report.
 std::vector<PageMetric> page_metrics(const Report& report);
 
 }  // namespace azimuth

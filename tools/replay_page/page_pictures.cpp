@@ -12,14 +12,14 @@ namespace azimuth {
 namespace {
 
 constexpr int kPageQuality = 75;
-constexpr int kLargest_px = 800, kSmallest_px = 160;  // of the longer side
+constexpr int kLargest_px = 800, kSmallest_px = 160;  // limits of the longer side
 constexpr double kSmaller = 0.75;
 
 std::size_t stride(std::size_t images, std::size_t spread) {
   return spread == 0 ? 0 : std::max<std::size_t>(1, (images + spread - 1) / spread);
 }
 
-/// The encoder does not write.
+/// A view of the matrix for the encoder, which only reads.
 ImageView view_of(const cv::Mat& rgb) {
   const auto* bytes = reinterpret_cast<const std::byte*>(rgb.data);
   return {.format = packed_format(PixelFormat::rgb8, rgb.cols, rgb.rows),
@@ -64,7 +64,7 @@ void PagePictures::take(std::size_t index, std::string why) {
   if (!jpeg.empty()) pictures_.push_back({run_.frames[index].stamp, std::move(why), std::move(jpeg)});
 }
 
-/// As large as its share of the bytes allows; empty: it fits at no size.
+/// The picture in the largest size that fits its share of the bytes; empty if no size fits.
 std::vector<std::byte> PagePictures::drawn(std::size_t index) {
   const ImageView large = picture_.draw(images_.pixels(index, PixelFormat::rgb8), seen_, expected_, in_map_);
   const FrameFormat& format = large.format;

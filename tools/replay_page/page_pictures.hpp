@@ -6,8 +6,8 @@
 
 #include "drivers/camera/jpeg.hpp"
 #include "drivers/camera/run_images.hpp"
+#include "drivers/picture/picture.hpp"
 #include "drivers/storage/run.hpp"
-#include "picture/picture.hpp"
 #include "slam/estimator/estimate.hpp"
 #include "slam/estimator/estimator.hpp"
 #include "slam/sample/expected_bearing.hpp"
@@ -16,18 +16,18 @@ namespace azimuth {
 
 struct PagePicture {
   Stamp stamp{};
-  std::string why;  ///< the health that began here, with its reason; empty: one of those spread over the run
+  std::string why;  ///< the new health and its reason at a change of health; empty for evenly spread pictures
   std::vector<std::byte> jpeg;
 };
 
-/// How much of a page images may take.
+/// Limits of the pictures on a page.
 struct PictureLimits {
-  std::size_t pictures = 24;      ///< of a run; 0: none
-  std::size_t bytes = 4'000'000;  ///< of a run, as JPEG
+  std::size_t pictures = 24;      ///< largest number per run; 0: no pictures
+  std::size_t bytes = 4'000'000;  ///< total size per run, as JPEG
 };
 
-/// Draws some of a run's images with what was seen and what was expected in them: two thirds spread evenly over the
-/// run, and where health changes as long as there is room. Large ones are drawn smaller.
+/// Draws some of a run's images with detections and expected bearings. Two thirds of the pictures are spread evenly
+/// over the run; the remaining third shows images at changes of health. Large images are scaled down.
 ///
 /// Thread contract: thread-bound. Borrows the run.
 class PagePictures {
@@ -45,12 +45,12 @@ class PagePictures {
 
   const Run& run_;
   PictureLimits limits_;
-  std::size_t spread_;  ///< of how many pictures
-  std::size_t every_;   ///< of the run's images
+  std::size_t spread_;  ///< number of evenly spread pictures
+  std::size_t every_;   ///< interval between them, in images
   RunImages images_;
   Picture picture_;
   JpegEncoder encoder_;
-  std::optional<std::size_t> image_;  // of the step under way
+  std::optional<std::size_t> image_;  // image of the present step
   BearingSet seen_;
   std::vector<ExpectedBearing> expected_;
   std::vector<std::int64_t> in_map_;

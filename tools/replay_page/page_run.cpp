@@ -71,7 +71,7 @@ Json pictures(std::span<const PagePicture> pictures, Stamp first) {
   return json;
 }
 
-/// The worse one, and where both are equally bad the longer.
+/// The stretch with the worse health; if both are equal, the longer one.
 const HealthStretch& leading(const HealthStretch& a, const HealthStretch& b) {
   const auto badness = [](Health health) { return health == Health::tracking ? -1 : static_cast<int>(health); };
   if (a.health != b.health) return badness(a.health) > badness(b.health) ? a : b;
@@ -96,7 +96,8 @@ std::vector<HealthStretch> put_together(const std::vector<HealthStretch>& stretc
   return fewer;
 }
 
-/// What the recording has that is not shown, for a person; empty: nothing. What others sent is nobody's loss.
+/// Text for the user on the unreadable part of the recording; empty if there is none. Events of other programs do not
+/// count.
 std::string unread(Skipped skipped) {
   skipped.foreign_events = 0;
   const std::string what = skipped.text();
@@ -144,7 +145,7 @@ Json page_run(const PageSource& source, std::size_t runs) {
 
 std::string page_data(const std::vector<Json>& runs, const std::string& made_by) {
   const Json data{{"made_by", made_by}, {"runs", runs}};
-  // ASCII alone: neither a line separator nor a name that is no UTF-8 can break the page.
+  // ASCII output, so that neither line separators nor invalid UTF-8 in names can break the page.
   return data.dump(-1, ' ', true, Json::error_handler_t::replace);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// A replay as the page shows it (tools/page/report.js): one object of JSON a run, of bounded size however long the run.
+// Data of a replay for the page (tools/page/report.js): one JSON object per run, of bounded size for runs of any
+// length.
 
 #include <nlohmann/json.hpp>
 #include <span>
@@ -16,38 +17,38 @@
 
 namespace azimuth {
 
-/// Instants that a page shows of all its runs together; each run has an equal share.
+/// Largest number of instants on a page, for all runs together. Each run has an equal share.
 inline constexpr std::size_t kMostPageInstants = 24000;
-/// Stretches of equal health that a page shows of a run. Of more than these the short ones are put together, each under
-/// the worst health within it.
+/// Largest number of stretches of equal health per run on a page. If there are more, short stretches are merged, and a
+/// merged stretch has the worst health in it.
 inline constexpr std::size_t kMostHealthStretches = 1000;
 
-/// What the page is made of. Borrows all of it.
+/// Input for the page. Borrows all members.
 struct PageSource {
   const Run& run;
   const ReplayResult& result;
   const Report& report;
   std::span<const PageStep> steps;        ///< one for each estimate
   std::span<const PagePicture> pictures;  ///< may be empty
-  std::span<const ColourClass> classes;   ///< of the colour front end
+  std::span<const ColourClass> classes;   ///< colour classes of the colour front end
 };
 
-/// A stretch of one health and one reason, in seconds since the first step.
+/// A period of one health and one reason, in seconds since the first step.
 struct HealthStretch {
   double from_s = 0.0, to_s = 0.0;
   Health health = Health::starting;
   std::string_view reason;
 };
 
-/// In order, each ending where the next one begins, at most `most` of them, which is more than 1.
+/// The stretches in order. Each one ends where the next begins. `most`: largest number of stretches, more than 1.
 std::vector<HealthStretch> health_stretches(std::span<const StepHealth> steps, std::size_t most);
 
-/// Of a page with `runs` runs. At least one step was made.
+/// The data of one run for a page with `runs` runs. Precondition: the run has at least one step.
 nlohmann::ordered_json page_run(const PageSource& source, std::size_t runs);
 
-/// What a page of them shows: one object of JSON, in ASCII.
+/// The data of a page with these runs: one JSON object in ASCII.
 std::string page_data(const std::vector<nlohmann::ordered_json>& runs, const std::string& made_by);
-/// The whole page.
+/// The complete HTML page.
 std::string replay_page(const std::vector<nlohmann::ordered_json>& runs, const std::string& made_by);
 
 }  // namespace azimuth

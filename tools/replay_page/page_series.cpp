@@ -17,7 +17,7 @@ namespace {
 constexpr double kMillimetre = 1e-3, kTenthMilliradian = 1e-4;
 constexpr double kNisWindow_s = 10.0;
 
-/// Columns of one length, of no number at first.
+/// Columns of equal length, initialised to NaN.
 class Columns {
  public:
   explicit Columns(std::size_t steps) : steps_(steps) {}
@@ -33,13 +33,13 @@ class Columns {
   std::vector<PageColumn> columns_;
 };
 
-/// One value a step.
+/// Sets one value per step.
 template <class Of>
 void fill(std::vector<double>& values, Of of) {
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = of(i);
 }
 
-/// One instant's pose in three columns.
+/// Adds three columns with the poses of all steps.
 template <class PoseOf>
 void add_poses(std::array<std::string_view, 3> names, bool keeps_peaks, PoseOf pose, Columns& columns) {
   fill(columns.add(names[0], kMillimetre, keeps_peaks), [&](std::size_t i) { return pose(i).x_m; });
@@ -114,7 +114,7 @@ void add_errors(const std::vector<EstimateRecord>& estimates, const std::vector<
   columns.add("anees") = std::move(anees);
 }
 
-/// The same few numbers of bearings come again and again.
+/// Caches the bounds of the NIS mean by number of bearings, since the same numbers recur.
 class MeanBounds {
  public:
   std::pair<double, double> of(std::size_t compared) {
@@ -128,7 +128,7 @@ class MeanBounds {
   std::map<std::size_t, std::pair<double, double>> bounds_;
 };
 
-/// Over the bearings compared within kNisWindow_s before each step.
+/// Mean NIS of the bearings compared within kNisWindow_s before each step.
 std::vector<double> recent_nis(const std::vector<EstimateRecord>& estimates, std::span<const PageStep> steps) {
   std::vector<double> means(steps.size(), kNotMeasured);
   double sum = 0.0;

@@ -9,17 +9,17 @@
 
 namespace azimuth {
 
-/// What a step did with the bearings it was given.
+/// Use of the bearings in one step.
 struct PageStep {
-  std::size_t seen = 0;      ///< bearings of the set
-  std::size_t compared = 0;  ///< accepted ones of landmarks whose expected azimuth and its deviation were known before
-  /// Of those, the squared differences in standard deviations, summed: normalised innovations squared, elevations left
-  /// out. One compared bearing gives 1 on the average where the estimate is honest.
+  std::size_t seen = 0;      ///< number of bearings in the set
+  std::size_t compared = 0;  ///< accepted bearings whose expected azimuth and its deviation were known beforehand
+  /// Sum of the normalised innovations squared (NIS) of the compared bearings, without elevations. Its mean per bearing
+  /// is 1 if the estimate is consistent.
   double nis = 0.0;
   AssociationCounts counts;  ///< since the start of the run
 };
 
-/// Looks on at a replay, and remembers of each step what its result does not say.
+/// Observes a replay and records data of each step that ReplayResult does not contain.
 ///
 /// Thread contract: thread-bound.
 class StepLog {

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kLampHeight_m = 6.5;
-constexpr double kTruthPeriod_s = 0.02;  // fine enough to know where the robot was when an image was taken
+constexpr double kTruthPeriod_s = 0.02;  // fine enough to interpolate the pose at each image
 
 struct Studio {
   RenderScene scene;
@@ -59,7 +59,7 @@ Pose2 true_pose(const std::vector<TruthPose>& truth, Stamp stamp) {
   return interpolate(before.T_world_body, after->T_world_body, fraction);
 }
 
-/// Takes pictures along the way.
+/// Renders and encodes the images of a drive.
 class Photographer {
  public:
   Photographer(const Studio& studio, int quality)

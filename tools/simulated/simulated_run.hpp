@@ -5,10 +5,10 @@
 
 namespace azimuth {
 
-/// Drives through the scenario and hands over what a recording robot would have written.
+/// Simulates the scenario and returns the run that a robot would have recorded.
 Run simulated_run(const Scenario& scenario);
 
-/// What was recorded within `most_s` of the first odometry reading.
+/// The part of the run within `most_s` seconds of the first odometry reading.
 Run first_seconds(Run run, double most_s);
 
 }  // namespace azimuth

@@ -1,5 +1,5 @@
 #pragma once
-// What passes from the server to a page: server-sent events (docs/view.md).
+// Server-sent events from the server to a page (docs/view.md).
 
 #include <cstdint>
 #include <memory>
@@ -15,7 +15,7 @@ enum class EventKind : std::uint8_t {
   truth_trail,
   journal,
   missed,
-  // Of these the newest alone matters.
+  // For the following kinds, only the newest event matters.
   pose,
   truth,
   map,
@@ -30,19 +30,19 @@ enum class EventKind : std::uint8_t {
 
 inline constexpr std::size_t kEventKinds = static_cast<std::size_t>(EventKind::beat) + 1;
 
-/// As the page knows it.
+/// The name of the event kind for the page.
 std::string_view to_string(EventKind kind);
 
-/// Whether a newer one takes the place of one that was not sent yet.
+/// True if a newer event replaces an unsent one of the same kind.
 constexpr bool newest_wins(EventKind kind) { return kind >= EventKind::pose; }
 
-/// Ready to be sent; shared by all who look.
+/// An event ready to be sent, shared by all clients.
 struct ViewEvent {
   EventKind kind{};
   std::shared_ptr<const std::string> text;  ///< "event: pose\nid: 7\ndata: {...}\n\n"
 };
 
-/// `data` in ASCII on one line: no text that was sent can break the stream. Reentrant.
+/// Makes an event with `data` in ASCII on one line, so that no text can break the stream. Reentrant.
 ViewEvent make_event(EventKind kind, std::uint64_t id, const nlohmann::json& data);
 
 }  // namespace azimuth

@@ -10,7 +10,7 @@
 namespace azimuth {
 namespace {
 
-/// An offset put on and taken off again leaves less.
+/// Tolerance for rounding errors of adding and subtracting an offset.
 constexpr double kSameAngle_rad = 1e-9;
 
 bool is_of(const Bearing& bearing, const sighting_t& sighting, double sense) {

@@ -17,7 +17,7 @@ void LandmarkHistory::take_map(std::span<const landmark_t> landmarks, double t_s
   std::unordered_map<std::int64_t, Known> present;
   for (const landmark_t& landmark : landmarks.first(std::min(landmarks.size(), most_))) {
     const auto before = known_.find(landmark.id);
-    // What is in the first map may have been there for long.
+    // Landmarks of the first received map may be old.
     const double first_t_s = any_map_ ? t_s : -std::numeric_limits<double>::infinity();
     present.emplace(landmark.id, before != known_.end() ? before->second : Known{first_t_s, {}, driving_s_, 0});
   }
@@ -38,7 +38,7 @@ void LandmarkHistory::contradicted(std::int64_t landmark, int in_a_row) {
   if (known != known_.end()) known->second.rejected_in_row = in_a_row;
 }
 
-/// Without a word on sightings nobody can say what was not seen.
+/// State of a landmark. The state "unseen" needs at least one received message on sightings.
 const char* LandmarkHistory::state(const Known& known) const {
   if (known.rejected_in_row >= kDoubtedFrom) return "doubted";
   if (map_t_s_ - known.first_t_s < kNew_s) return "new";

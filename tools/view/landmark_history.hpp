@@ -10,28 +10,28 @@
 
 namespace azimuth {
 
-/// Since when landmarks are in the map, and when they were last seen: what no single map says. Times are seconds since
-/// the time at which what is shown begins.
+/// Records when landmarks entered the map and when they were last seen. Times are seconds since the start of the shown
+/// period.
 ///
-/// Thread contract: thread-bound. Knows no more landmarks than it was last given, and no more than `most`.
+/// Thread contract: thread-bound. Stores only the landmarks of the last map, and at most `most`.
 class LandmarkHistory {
  public:
   static constexpr double kNew_s = 5.0, kUnseenDriving_s = 30.0;
-  static constexpr int kDoubtedFrom = 2;  // refused bearings; one may be of something else
+  static constexpr int kDoubtedFrom = 2;  // rejected bearings; a single one may belong to another landmark
 
   explicit LandmarkHistory(std::size_t most) : most_(most) {}
 
-  /// A whole map; of more than `most` landmarks the first ones.
+  /// Takes a complete map. Only the first `most` landmarks are stored.
   void take_map(std::span<const landmark_t> landmarks, double t_s);
-  /// It corrected the pose.
+  /// A bearing of the landmark was used in an update.
   void saw(std::int64_t landmark, double t_s);
-  /// So many bearings in a row were taken for it, and refused.
+  /// The gate rejected this many successive bearings of the landmark.
   void contradicted(std::int64_t landmark, int in_a_row);
-  /// The robot drove, for so long.
+  /// Adds driving time.
   void drove(double seconds) { driving_s_ += seconds; }
   void clear() { *this = LandmarkHistory(most_); }
 
-  /// "landmarks": [[id, identity, x, y, xx, xy, yy, z, sigma_z, last_seen_t, state]], "more".
+  /// The JSON members "landmarks": [[id, identity, x, y, xx, xy, yy, z, sigma_z, last_seen_t, state]], "more".
   nlohmann::json json(std::span<const landmark_t> landmarks) const;
 
  private:

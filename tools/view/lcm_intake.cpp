@@ -15,9 +15,9 @@
 namespace azimuth {
 namespace {
 
-/// After so long another process may take over: a daemon that was started anew.
+/// Silence of a sender after which another process is accepted, for example a restarted daemon.
 constexpr Duration kSenderSilence = std::chrono::milliseconds(500);
-/// Pictures come seldom.
+/// The same for the sender of pictures, which are rare.
 constexpr Duration kPainterSilence = std::chrono::seconds(5);
 
 constexpr std::array kShown{channel::kExpected, channel::kKept,     channel::kPose,      channel::kOdometry,
@@ -30,7 +30,7 @@ bool is_true(const pose_cov_t& pose) {
          std::ranges::all_of(pose.covariance, [](double value) { return std::isfinite(value); });
 }
 
-/// Hands a message on that is one, and says whether it was.
+/// Passes a valid message to `work` and returns whether it was valid.
 template <class Message, class Work>
 bool use(const std::optional<Message>& message, const Work& work) {
   if (message) work(*message);
@@ -56,8 +56,8 @@ void LcmIntake::accept(const LcmPacket& packet, LcmPeer sender, const LcmReceipt
   const std::optional<WholeMessage> message = parts_.take(packet, sender);
   if (!message) return;
   const std::string_view channel = message->channel.substr(prefix_.size());
-  const Heard heard{LiveView::Clock::time_point(receipt.stamp.time_since_epoch()),
-                    to_us(receipt.stamp + receipt.wall_lead)};
+  const Reception heard{LiveView::Clock::time_point(receipt.stamp.time_since_epoch()),
+                        to_us(receipt.stamp + receipt.wall_lead)};
   if (!is_of_the_daemon(channel, sender, receipt, heard)) return void(++counts_.other_senders);
   if (take(channel, message->data, heard))
     ++counts_.messages;
@@ -65,9 +65,10 @@ void LcmIntake::accept(const LcmPacket& packet, LcmPeer sender, const LcmReceipt
     ++counts_.malformed[std::string(channel)];
 }
 
-/// The daemon's painter has a socket of its own; truth comes from somebody else.
+/// The daemon sends pictures from a separate socket, and truth comes from another program, so that each has its own
+/// sender choice.
 bool LcmIntake::is_of_the_daemon(std::string_view channel, LcmPeer sender, const LcmReceipt& receipt,
-                                 const Heard& heard) {
+                                 const Reception& heard) {
   LcmSenderChoice& choice = channel == channel::kPicture ? painter_ : channel == channel::kTruth ? truth_ : daemon_;
   if (!choice.would_accept(sender, receipt.stamp)) return false;
   const bool any_before = choice.changes() > 0;
@@ -75,7 +76,7 @@ bool LcmIntake::is_of_the_daemon(std::string_view channel, LcmPeer sender, const
   return true;
 }
 
-bool LcmIntake::take(std::string_view channel, Bytes data, const Heard& heard) {
+bool LcmIntake::take(std::string_view channel, Bytes data, const Reception& heard) {
   if (channel == channel::kPose) {
     const std::optional<pose_cov_t> pose = decode_pose(data);
     return pose && is_true(*pose) && use(pose, [&](const pose_cov_t& each) { view_.take_pose(each, heard); });
@@ -103,8 +104,8 @@ bool LcmIntake::take(std::string_view channel, Bytes data, const Heard& heard) {
   return channel == channel::kPicture ? take_picture(data, heard) : take_document(data, heard);
 }
 
-/// Only a JPEG file that says how large it is; what is in it is the browser's to judge.
-bool LcmIntake::take_picture(Bytes data, const Heard& heard) {
+/// Accepts only a JPEG image with a stated size. The browser decodes the content.
+bool LcmIntake::take_picture(Bytes data, const Reception& heard) {
   const std::optional<ImageMessage> message = decode_image(data);
   if (!message || !message->supported || message->image.format.pixels != PixelFormat::mjpeg) return false;
   const auto size_px = jpeg_size(message->image.bytes);
@@ -113,7 +114,7 @@ bool LcmIntake::take_picture(Bytes data, const Heard& heard) {
   return true;
 }
 
-bool LcmIntake::take_document(Bytes data, const Heard& heard) {
+bool LcmIntake::take_document(Bytes data, const Reception& heard) {
   const std::optional<document_t> document = decode_document(data);
   if (!document) return false;
   if (document->name == "rig.toml") view_.take_rig(as_text(std::as_bytes(std::span(document->data))), heard);

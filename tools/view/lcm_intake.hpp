@@ -10,15 +10,15 @@
 
 namespace azimuth {
 
-/// What was not shown, since the start.
+/// Message counts since the start.
 struct IntakeCounts {
-  std::uint64_t messages = 0;                                   ///< shown
-  std::map<std::string, std::uint64_t, std::less<>> malformed;  ///< none of their channel's type, or cannot be true
-  std::uint64_t other_senders = 0;                              ///< of a second daemon on the same channels
+  std::uint64_t messages = 0;                                   ///< accepted messages
+  std::map<std::string, std::uint64_t, std::less<>> malformed;  ///< by channel: wrong type or implausible content
+  std::uint64_t other_senders = 0;                              ///< messages of a second daemon on the same channels
 };
 
-/// Takes LCM's datagrams of one daemon, and of whoever sends truth; anything may be sent on any channel. Receipts are
-/// dated CLOCK_MONOTONIC, with nothing added.
+/// Receives the LCM datagrams of one daemon and of a sender of truth. Any content on any channel is safe. Receipts have
+/// the unmodified time of CLOCK_MONOTONIC.
 ///
 /// Thread contract: thread-bound. Borrows the view.
 class LcmIntake final : public LcmSink {
@@ -30,10 +30,10 @@ class LcmIntake final : public LcmSink {
   const IntakeCounts& counts() const { return counts_; }
 
  private:
-  bool take(std::string_view channel, Bytes data, const Heard& heard);
-  bool take_picture(Bytes data, const Heard& heard);
-  bool take_document(Bytes data, const Heard& heard);
-  bool is_of_the_daemon(std::string_view channel, LcmPeer sender, const LcmReceipt& receipt, const Heard& heard);
+  bool take(std::string_view channel, Bytes data, const Reception& heard);
+  bool take_picture(Bytes data, const Reception& heard);
+  bool take_document(Bytes data, const Reception& heard);
+  bool is_of_the_daemon(std::string_view channel, LcmPeer sender, const LcmReceipt& receipt, const Reception& heard);
 
   LiveView& view_;
   std::string prefix_;

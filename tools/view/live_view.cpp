@@ -14,16 +14,15 @@ using Json = nlohmann::json;
 using namespace std::chrono_literals;
 
 constexpr auto kPoseInterval = 33ms, kTruthInterval = 33ms;
-/// Older by so much is no datagram that was overtaken, but a recording that began again.
+/// A message older by this much is not a delayed datagram: a recording was started again.
 constexpr std::int64_t kBeganAgain_us = 1'000'000;
-/// Below, a robot stands.
+/// Changes below these count as standing.
 constexpr double kMoved_m = 1e-4, kTurned_rad = 1e-4, kLongestStep_s = 2.0;
 
 enum class Order { next, overtaken, anew };
 
-/// Of one session numbers and stamps ascend together, so both tell: a smaller number that is newer is another
-/// session's, and one that is older was overtaken on its way; so was a greater one that is older, by the session after
-/// it.
+/// Numbers and stamps increase together within a session. A message with a smaller number and a newer stamp therefore
+/// belongs to a new session. A message with an older stamp was delayed, within the session or from the previous one.
 Order order_after(const std::optional<SessionMark>& last, const SessionMark& now) {
   if (!last) return Order::next;
   if (last->stamp_us - now.stamp_us >= kBeganAgain_us) return Order::anew;
@@ -68,19 +67,19 @@ double LiveView::t_s(std::int64_t utime_us) const {
   return 1e-6 * static_cast<double>(utime_us - epoch_us_.value_or(utime_us));
 }
 
-void LiveView::hear(const Heard& heard) {
+void LiveView::hear(const Reception& heard) {
   silence_.hear(heard.at);
   events_.forget(EventKind::silence);
 }
 
-/// Times are shown from the first one on; who looks already begins anew with that.
+/// Sets the origin of displayed times to the first stamp. Connected clients start again with it.
 void LiveView::begin_at(std::int64_t utime_us) {
   if (epoch_us_) return;
   epoch_us_ = utime_us;
   ++generation_;
 }
 
-void LiveView::restart(const Heard& heard) {
+void LiveView::restart(const Reception& heard) {
   LiveView anew(version_, source_, events_.lookers(), heard.at, limits_);
   anew.since_ = since_;
   anew.generation_ = generation_ + 1;
@@ -96,8 +95,9 @@ void LiveView::restart(const Heard& heard) {
   tell({"the daemon started anew, or its recording did", "info"}, heard);
 }
 
-/// Whether it is the newest of its kind. Another session's makes everything begin anew; what was overtaken is left out.
-bool LiveView::takes(std::optional<SessionMark> Marks::*kind, const SessionMark& mark, const Heard& heard) {
+/// True if the message is the newest of its kind. A message of a new session causes a restart; a delayed one is
+/// ignored.
+bool LiveView::takes(std::optional<SessionMark> Marks::*kind, const SessionMark& mark, const Reception& heard) {
   const Order order = order_after(marks_.*kind, mark);
   if (order == Order::anew) restart(heard);
   hear(heard);
@@ -106,7 +106,7 @@ bool LiveView::takes(std::optional<SessionMark> Marks::*kind, const SessionMark&
   return true;
 }
 
-void LiveView::take_pose(const pose_cov_t& pose, const Heard& heard) {
+void LiveView::take_pose(const pose_cov_t& pose, const Reception& heard) {
   if (!takes(pose.predicted != 0 ? &Marks::prediction : &Marks::step, {pose.seq, pose.utime}, heard)) return;
   begin_at(pose.utime);
   measured_.pose(pose.utime, heard);
@@ -118,7 +118,7 @@ void LiveView::take_pose(const pose_cov_t& pose, const Heard& heard) {
   if (heard.at >= pose_.pace.next) send_pose(heard);
 }
 
-void LiveView::send_pose(const Heard& now) {
+void LiveView::send_pose(const Reception& now) {
   pose_.pace.sent(now.at);
   Json json = pose_json(*pose_.newest);
   json["t"] = t_s(pose_.newest->utime);
@@ -126,7 +126,7 @@ void LiveView::send_pose(const Heard& now) {
   events_.tell(EventKind::pose, std::move(json), now);
 }
 
-void LiveView::take_truth(const TruthPose& truth, const Heard& heard) {
+void LiveView::take_truth(const TruthPose& truth, const Reception& heard) {
   hear(heard);
   begin_at(to_us(truth.stamp));
   truth_trail_.add({.t_s = t_s(to_us(truth.stamp)), .T_map_body = truth.T_world_body, .T_odom_body = {}});
@@ -135,7 +135,7 @@ void LiveView::take_truth(const TruthPose& truth, const Heard& heard) {
   if (heard.at >= truth_.pace.next) send_truth(heard);
 }
 
-void LiveView::send_truth(const Heard& now) {
+void LiveView::send_truth(const Reception& now) {
   truth_.pace.sent(now.at);
   const Pose2& T_world_body = truth_.newest->T_world_body;
   events_.tell(EventKind::truth,
@@ -146,7 +146,7 @@ void LiveView::send_truth(const Heard& now) {
                now);
 }
 
-void LiveView::take_bearings(BearingSet set, const Heard& heard) {
+void LiveView::take_bearings(BearingSet set, const Reception& heard) {
   hear(heard);
   begin_at(to_us(set.stamp));
   measured_.image();
@@ -154,7 +154,7 @@ void LiveView::take_bearings(BearingSet set, const Heard& heard) {
   send_bearings_if_due(heard);
 }
 
-void LiveView::take_sightings(const sightings_t& sightings, const Heard& heard) {
+void LiveView::take_sightings(const sightings_t& sightings, const Reception& heard) {
   hear(heard);
   begin_at(sightings.utime);
   map_.take(sightings, t_s(sightings.utime));
@@ -162,7 +162,7 @@ void LiveView::take_sightings(const sightings_t& sightings, const Heard& heard) 
   send_bearings_if_due(heard);
 }
 
-void LiveView::take_expectations(const expectations_t& expectations, const Heard& heard) {
+void LiveView::take_expectations(const expectations_t& expectations, const Reception& heard) {
   hear(heard);
   begin_at(expectations.utime);
   measured_.innovations(expectations.nis, expectations.compared);
@@ -171,20 +171,20 @@ void LiveView::take_expectations(const expectations_t& expectations, const Heard
   send_bearings_if_due(heard);
 }
 
-void LiveView::send_bearings_if_due(const Heard& now) {
+void LiveView::send_bearings_if_due(const Reception& now) {
   if (!bearings_.waits() || now.at < bearings_.due()) return;
   Json json = bearings_.sent(now.at);
   json["t"] = t_s(to_us(bearings_.stamp()));
   events_.tell(EventKind::bearings, std::move(json), now);
 }
 
-/// What claims to come in more pieces would only be remembered.
+/// Rejects messages that claim too many pieces, since storing their pieces would take unbounded memory.
 template <class Piece>
 bool LiveView::is_bounded(const Piece& piece) const {
   return static_cast<std::size_t>(piece.chunks) <= limits_.pieces;
 }
 
-void LiveView::take_map(const map_chunk_t& piece, const Heard& heard) {
+void LiveView::take_map(const map_chunk_t& piece, const Reception& heard) {
   hear(heard);
   if (!is_bounded(piece) || !map_.take(piece)) return;
   begin_at(map_.utime());
@@ -194,7 +194,7 @@ void LiveView::take_map(const map_chunk_t& piece, const Heard& heard) {
   events_.tell(EventKind::map, *std::move(json), heard);
 }
 
-void LiveView::take_path(const path_t& piece, const Heard& heard) {
+void LiveView::take_path(const path_t& piece, const Reception& heard) {
   hear(heard);
   if (!is_bounded(piece) || !path_.take(piece)) return;
   begin_at(path_.utime());
@@ -207,9 +207,9 @@ void LiveView::take_path(const path_t& piece, const Heard& heard) {
   events_.tell(EventKind::path, {{"t", t_s(path_.utime())}, {"seq", piece.seq}, {"points", std::move(points)}}, heard);
 }
 
-void LiveView::take_status(const status_t& status, const Heard& heard) {
+void LiveView::take_status(const status_t& status, const Reception& heard) {
   if (!takes(&Marks::status, {status.seq, status.utime_mono}, heard)) return;
-  const bool is_dated = status.estimates > 0;  // by the newest of them
+  const bool is_dated = status.estimates > 0;  // the date is that of the newest estimate
   if (is_dated) begin_at(status.utime);
   for (const News& news : news_.take(status)) tell(news, heard);
   Json json = status_json(status, limits_.text_bytes);
@@ -219,18 +219,18 @@ void LiveView::take_status(const status_t& status, const Heard& heard) {
   events_.tell(EventKind::status, std::move(json), heard);
 }
 
-void LiveView::take_kept(const kept_t& kept, const Heard& heard) {
+void LiveView::take_kept(const kept_t& kept, const Reception& heard) {
   hear(heard);
   kept_ = kept;
 }
 
-void LiveView::tell(const News& news, const Heard& now) {
+void LiveView::tell(const News& news, const Reception& now) {
   const Json t = pose_.newest ? Json(t_s(pose_.newest->utime)) : Json(nullptr);
   events_.tell(EventKind::journal,
                {{"t", t}, {"text", shortened(news.text, limits_.text_bytes)}, {"level", news.level}}, now);
 }
 
-void LiveView::take_picture(Stamp stamp, Bytes jpeg, int width_px, int height_px, const Heard& heard) {
+void LiveView::take_picture(Stamp stamp, Bytes jpeg, int width_px, int height_px, const Reception& heard) {
   hear(heard);
   if (jpeg.size() > limits_.picture_bytes) return;
   begin_at(to_us(stamp));
@@ -239,7 +239,7 @@ void LiveView::take_picture(Stamp stamp, Bytes jpeg, int width_px, int height_px
                {{"t", t_s(to_us(stamp))}, {"seq", picture_.number}, {"width", width_px}, {"height", height_px}}, heard);
 }
 
-void LiveView::take_rig(std::string_view toml, const Heard& heard) {
+void LiveView::take_rig(std::string_view toml, const Reception& heard) {
   hear(heard);
   if (toml == rig_toml_) return;
   rig_toml_ = toml;
@@ -249,7 +249,7 @@ void LiveView::take_rig(std::string_view toml, const Heard& heard) {
   ++generation_;
 }
 
-void LiveView::turn(const Heard& now, const std::string& trouble) {
+void LiveView::turn(const Reception& now, const std::string& trouble) {
   if (pose_.pace.waits && now.at >= pose_.pace.next) send_pose(now);
   if (truth_.pace.waits && now.at >= truth_.pace.next) send_truth(now);
   send_bearings_if_due(now);
@@ -257,7 +257,7 @@ void LiveView::turn(const Heard& now, const std::string& trouble) {
   events_.beat(now);
 }
 
-void LiveView::tell_silence(const Heard& now, const std::string& trouble) {
+void LiveView::tell_silence(const Reception& now, const std::string& trouble) {
   const double since_s = silence_.told(now.at);
   events_.tell(EventKind::silence,
                {{"since_s", std::round(since_s * 10.0) / 10.0}, {"trouble", shortened(trouble, limits_.text_bytes)}},

@@ -1,6 +1,6 @@
 #pragma once
-// What a running daemon says, as what is shown of it: the state that one who begins to look is told, and events for
-// those who look already.
+// Converts the messages of a running daemon for display: into a state for clients that connect, and into events for
+// connected clients.
 
 #include <azimuth/expectations_t.hpp>
 #include <azimuth/kept_t.hpp>
@@ -21,11 +21,11 @@
 #include "drivers/wire/truth.hpp"
 #include "slam/sample/bearings.hpp"
 #include "slam/sample/stamp.hpp"
-#include "tools/view/heard.hpp"
 #include "tools/view/lookers.hpp"
 #include "tools/view/measured.hpp"
 #include "tools/view/news.hpp"
 #include "tools/view/pace.hpp"
+#include "tools/view/reception.hpp"
 #include "tools/view/shown_bearings.hpp"
 #include "tools/view/shown_map.hpp"
 #include "tools/view/silence_watch.hpp"
@@ -35,20 +35,21 @@
 
 namespace azimuth {
 
-/// The newest JPEG.
+/// The newest JPEG image.
 struct ShownPicture {
-  std::uint64_t number = 0;  ///< counts from 1; 0: there is none
+  std::uint64_t number = 0;  ///< counts from 1; 0: no picture
   std::shared_ptr<const std::string> jpeg;
 };
 
-/// What tells one session's messages from another's: both ascend from one message of a kind to the next.
+/// Number and stamp of a message, which distinguish sessions of the daemon: both increase from one message of a kind to
+/// the next.
 struct SessionMark {
   std::int64_t number = 0, stamp_us = 0;
 };
 
-/// Takes sound messages of one daemon. Bounded by its limits whatever comes.
+/// Takes valid messages of one daemon. Its memory is bounded by ViewLimits for any input.
 ///
-/// Events are at most 30 poses and 15 images a second; a newer one takes the place of one that waits for its turn.
+/// Events are limited to 30 poses and 15 images per second. A newer one replaces a waiting one.
 ///
 /// Thread contract: thread-bound.
 class LiveView {
@@ -56,42 +57,41 @@ class LiveView {
   using Clock = std::chrono::steady_clock;
   using Json = nlohmann::json;
 
-  /// `version` and `source` are said to who begins to look. Borrows the lookers.
+  /// `version` and `source` are sent to each client that connects. Borrows the lookers.
   LiveView(std::string version, std::string source, Lookers& lookers, Clock::time_point now,
            const ViewLimits& limits = {});
 
-  void take_pose(const pose_cov_t& pose, const Heard& heard);
+  void take_pose(const pose_cov_t& pose, const Reception& heard);
   void take_odometry() { measured_.odometry(); }
-  void take_bearings(BearingSet set, const Heard& heard);
-  void take_sightings(const sightings_t& sightings, const Heard& heard);
-  void take_expectations(const expectations_t& expectations, const Heard& heard);
-  void take_map(const map_chunk_t& piece, const Heard& heard);
-  void take_path(const path_t& piece, const Heard& heard);
-  /// Shown with the next status.
-  void take_kept(const kept_t& kept, const Heard& heard);
-  void take_status(const status_t& status, const Heard& heard);
-  void take_truth(const TruthPose& truth, const Heard& heard);
-  void take_picture(Stamp stamp, Bytes jpeg, int width_px, int height_px, const Heard& heard);
-  /// The text of a rig.toml; one that cannot be read is none.
-  void take_rig(std::string_view toml, const Heard& heard);
-  /// The daemon is another one than before.
-  void restart(const Heard& heard);
+  void take_bearings(BearingSet set, const Reception& heard);
+  void take_sightings(const sightings_t& sightings, const Reception& heard);
+  void take_expectations(const expectations_t& expectations, const Reception& heard);
+  void take_map(const map_chunk_t& piece, const Reception& heard);
+  void take_path(const path_t& piece, const Reception& heard);
+  /// The content is sent with the next status.
+  void take_kept(const kept_t& kept, const Reception& heard);
+  void take_status(const status_t& status, const Reception& heard);
+  void take_truth(const TruthPose& truth, const Reception& heard);
+  void take_picture(Stamp stamp, Bytes jpeg, int width_px, int height_px, const Reception& heard);
+  /// Takes the text of a rig.toml. An unreadable one counts as none.
+  void take_rig(std::string_view toml, const Reception& heard);
+  /// Handles a restart of the daemon.
+  void restart(const Reception& heard);
 
-  /// Sends what is due by now. `trouble`: why nothing can be heard at all; empty: nothing is.
-  void turn(const Heard& now, const std::string& trouble);
-  /// When turn() is wanted although nothing comes.
+  /// Sends due events. `trouble`: reason why no messages can be received; empty if there is none.
+  void turn(const Reception& now, const std::string& trouble);
+  /// The latest time for the next call of turn() if no message arrives.
   Clock::time_point next_turn() const;
 
-  // For one who begins to look, or has to begin anew because the generation is another one: hello() says something
-  // else.
+  // For clients that connect, or that must start again because the generation, and with it hello(), has changed.
   std::uint64_t generation() const { return generation_; }
-  std::uint64_t restarts() const { return restarts_; }  ///< of the daemon
+  std::uint64_t restarts() const { return restarts_; }  ///< number of restarts of the daemon
   ViewEvent hello();
-  /// Points of the way that are newer, in one event; nothing: there are none. Sets `t_s` to the last one's.
+  /// An event with trail points newer than `t_s`, which is set to the time of the last one; nothing if there are none.
   std::optional<ViewEvent> trail_after(double& t_s);
   std::optional<ViewEvent> truth_trail_after(double& t_s);
   ViewEvent restarted() { return events_.made(EventKind::restarted, Json::object()); }
-  /// The newest of all else, in the order in which to tell them.
+  /// The newest events of all other kinds, in the order of sending.
   std::vector<ViewEvent> newest() const { return events_.newest(); }
 
   const ShownPicture& picture() const { return picture_; }
@@ -99,19 +99,19 @@ class LiveView {
   const ViewLimits& limits() const { return limits_; }
 
  private:
-  /// Of the newest message of each kind. A step may be older than the prediction sent before it.
+  /// Marks of the newest message of each kind. A step may be older than a prediction that was sent before it.
   struct Marks {
     std::optional<SessionMark> step, prediction, status;
   };
-  bool takes(std::optional<SessionMark> Marks::*kind, const SessionMark& mark, const Heard& heard);
-  void hear(const Heard& heard);
+  bool takes(std::optional<SessionMark> Marks::*kind, const SessionMark& mark, const Reception& heard);
+  void hear(const Reception& heard);
   void begin_at(std::int64_t utime_us);
   double t_s(std::int64_t utime_us) const;
-  void send_pose(const Heard& now);
-  void send_truth(const Heard& now);
-  void send_bearings_if_due(const Heard& now);
-  void tell(const News& news, const Heard& now);
-  void tell_silence(const Heard& now, const std::string& trouble);
+  void send_pose(const Reception& now);
+  void send_truth(const Reception& now);
+  void send_bearings_if_due(const Reception& now);
+  void tell(const News& news, const Reception& now);
+  void tell_silence(const Reception& now, const std::string& trouble);
   template <class Piece>
   bool is_bounded(const Piece& piece) const;
 

@@ -27,7 +27,7 @@ std::size_t Looker::read(std::span<char> into) {
   return written;
 }
 
-/// What was to be told of the daemon before is of no use any more.
+/// Starts the stream again and discards waiting events.
 void Looker::begin() {
   generation_ = view_.generation();
   restarts_ = view_.restarts();
@@ -54,7 +54,7 @@ std::optional<ViewEvent> Looker::next() {
   if (phase_ == Phase::truth) {
     if (std::optional<ViewEvent> piece = view_.truth_trail_after(told_until_t_s_)) return piece;
     phase_ = Phase::live;
-    outbox_.clear();  // all of it is in what comes now
+    outbox_.clear();  // view_.newest() contains their content
     for (const ViewEvent& event : view_.newest()) outbox_.push(event);
   }
   return outbox_.pop();

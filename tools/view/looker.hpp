@@ -12,9 +12,9 @@
 
 namespace azimuth {
 
-/// The stream of events for one who looks: hello, the way so far, piece by piece as fast as it is read, then the newest
-/// of everything, then what happens. When hello has something else to say, above all when the daemon started anew, it
-/// begins anew.
+/// The event stream for one client: hello, then the trail so far in pieces as fast as the client reads, then the newest
+/// event of each kind, then live events. When the content of hello changes, in particular when the daemon restarts, the
+/// stream starts again.
 ///
 /// Thread contract: thread-bound. Borrows view and lookers.
 class Looker {
@@ -24,7 +24,7 @@ class Looker {
   Looker(const Looker&) = delete;
   Looker& operator=(const Looker&) = delete;
 
-  /// The next bytes; 0: there is nothing to send at present.
+  /// Writes the next bytes and returns their number; 0 if there is nothing to send at present.
   std::size_t read(std::span<char> into);
   bool has_something() const;
 
@@ -38,12 +38,12 @@ class Looker {
   LiveView& view_;
   Lookers& lookers_;
   Outbox outbox_;
-  std::optional<std::uint64_t> generation_;  // none: nothing was sent yet
+  std::optional<std::uint64_t> generation_;  // nothing before the first event
   std::uint64_t restarts_ = 0;
   Phase phase_ = Phase::hello;
   double told_until_t_s_ = -std::numeric_limits<double>::infinity();
-  std::shared_ptr<const std::string> text_;  // being sent
-  std::size_t sent_ = 0;                     // of it
+  std::shared_ptr<const std::string> text_;  // text of the event being sent
+  std::size_t sent_ = 0;                     // number of bytes of text_ already sent
 };
 
 }  // namespace azimuth

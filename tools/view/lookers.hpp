@@ -6,7 +6,7 @@
 
 namespace azimuth {
 
-/// The outboxes of all who look.
+/// The outboxes of all clients.
 ///
 /// Thread contract: thread-bound. Borrows the outboxes.
 class Lookers {

@@ -10,12 +10,12 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// A stamp farther from the wall clock is of another clock, such as a recording's.
+/// A stamp that differs more from the wall clock belongs to another clock, such as that of a recording.
 constexpr double kSameClock_s = 10.0;
 
 }  // namespace
 
-void Measured::pose(std::int64_t utime_us, const Heard& heard) {
+void Measured::pose(std::int64_t utime_us, const Reception& heard) {
   ++poses_;
   const double latency_s = 1e-6 * static_cast<double>(heard.wall_us - utime_us);
   latency_s_ = std::abs(latency_s) < kSameClock_s ? latency_s : std::numeric_limits<double>::quiet_NaN();

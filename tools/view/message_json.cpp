@@ -19,7 +19,7 @@ Json column(std::span<const TrailPoint> points, double per_unit, const Part& par
   return values;
 }
 
-/// What estimate and truth have in common.
+/// The columns common to estimate and truth.
 Json way_json(std::span<const TrailPoint> points) {
   return {{"t", column(points, kPerSecond, [](const TrailPoint& p) { return p.t_s; })},
           {"x", column(points, kPerMetre, [](const TrailPoint& p) { return p.T_map_body.x_m; })},
@@ -75,7 +75,7 @@ Json number_json(double value) { return std::isfinite(value) ? Json(value) : Jso
 
 Json rounded_json(double value, double per_unit) {
   if (!std::isfinite(value)) return nullptr;
-  return std::round(value * per_unit) / per_unit + 0.0;  // no -0
+  return std::round(value * per_unit) / per_unit + 0.0;  // turns -0 into 0
 }
 
 Json pose_json(const pose_cov_t& pose) {
@@ -120,7 +120,8 @@ Json truth_trail_json(std::span<const TrailPoint> points) { return way_json(poin
 
 namespace {
 
-/// How azimuths lie in its images, in the robot's frame (slam/camera/image_axes.hpp); null of what nobody wrote down.
+/// The relation between image axes and azimuths in the robot's frame (slam/camera/image_axes.hpp); null for missing
+/// values.
 Json image_json(const CameraRig& camera) {
   const ImageRig& image = camera.image;
   const auto some = [](const auto& value) { return value ? Json(*value) : Json(nullptr); };
@@ -162,7 +163,7 @@ Json trail_json(std::span<const TrailPoint> points) {
 std::string shortened(std::string_view text, std::size_t most_bytes) {
   if (text.size() <= most_bytes) return std::string(text);
   std::size_t end = most_bytes;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // within a character of UTF-8
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // skips UTF-8 continuation bytes
   return std::string(text.substr(0, end)) + "...";
 }
 

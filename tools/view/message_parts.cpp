@@ -11,7 +11,7 @@ std::optional<WholeMessage> MessageParts::take(const LcmPacket& packet, LcmPeer 
     return each.used && each.sender == sender && each.message == packet.sequence;
   });
   if (found != partials_.end()) return add(*found, packet);
-  if (packet.part != 0) return std::nullopt;  // its beginning was lost
+  if (packet.part != 0) return std::nullopt;  // the first part was lost
   Partial& place = place_for(sender);
   place.used = true;
   place.sender = sender;
@@ -31,7 +31,7 @@ MessageParts::Partial& MessageParts::place_for(LcmPeer sender) {
   return *place;
 }
 
-/// Parts that contradict what the first one said, or come twice, are left out.
+/// Adds a part. Duplicate parts, and parts that contradict the first one, are ignored.
 std::optional<WholeMessage> MessageParts::add(Partial& partial, const LcmPacket& packet) {
   if (packet.size != partial.data.size() || packet.parts != partial.there.size() || partial.there[packet.part])
     return std::nullopt;

@@ -10,21 +10,21 @@
 
 namespace azimuth {
 
-/// A message, whole. Borrows what it was put together from.
+/// A complete message. Borrows its bytes.
 struct WholeMessage {
   std::string_view channel;
   Bytes data;
 };
 
-/// Puts messages together that came in parts. One at a time from each of kSenders senders, none larger than
-/// kMostBytes: what one sends in parts comes one after the other, so an unfinished one will stay so.
+/// Reassembles fragmented messages, one at a time from each of kSenders senders and at most kMostBytes each. A sender
+/// sends its messages one after another, so a new message means that the previous one stays incomplete.
 ///
 /// Thread contract: thread-bound.
 class MessageParts {
  public:
   static constexpr std::size_t kSenders = 4, kMostBytes = 8'000'000, kMostParts = 1024;
 
-  /// What is whole with this packet; until the next call.
+  /// The message that this packet completes. It is valid until the next call.
   std::optional<WholeMessage> take(const LcmPacket& packet, LcmPeer sender);
 
  private:

@@ -10,7 +10,7 @@ namespace {
 struct Topic {
   std::string_view name;
   std::string status_t::*text;
-  bool is_trouble;  ///< whenever there is a text
+  bool is_trouble;  ///< any text means trouble
 };
 
 constexpr std::array<Topic, 9> kTopics{{{"odometer", &status_t::odometer, false},

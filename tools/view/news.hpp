@@ -7,13 +7,13 @@
 
 namespace azimuth {
 
-/// Something that changed, for a person.
+/// A change, as text for the user.
 struct News {
   std::string text;
   std::string_view level;  ///< "info", "warning" or "error"
 };
 
-/// What one status says that the one before did not; of the first one all that is worth a word.
+/// Finds the changes between successive status messages. For the first one, reports all noteworthy content.
 ///
 /// Thread contract: thread-bound.
 class StatusNews {

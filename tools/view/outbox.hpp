@@ -8,8 +8,8 @@
 
 namespace azimuth {
 
-/// What waits to be sent to one who looks. However slow that is, it holds one event of each kind of which the newest
-/// wins, and kMostLines of the others; what gave way is counted.
+/// Events that wait to be sent to one client. It holds at most one event of each kind with newest_wins(), and
+/// kMostLines of the other kinds together. Replaced and dropped events are counted.
 ///
 /// Thread contract: thread-bound.
 class Outbox {
@@ -17,14 +17,14 @@ class Outbox {
   static constexpr std::size_t kMostLines = 64;
 
   void push(const ViewEvent& event);
-  /// The oldest; what was missed since the last one is told first.
+  /// The oldest event. If events were dropped since the last call, a `missed` event comes first.
   std::optional<ViewEvent> pop();
 
   bool empty() const { return waiting_.empty(); }
   std::size_t size() const { return waiting_.size(); }
-  /// Nothing waits, and nothing was missed.
+  /// Removes all waiting events and resets missed().
   void clear();
-  std::uint64_t missed() const { return missed_; }  ///< not told yet
+  std::uint64_t missed() const { return missed_; }  ///< not yet reported to the client
 
  private:
   void drop(const std::deque<ViewEvent>::const_iterator& which);

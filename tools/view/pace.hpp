@@ -5,7 +5,7 @@
 
 namespace azimuth {
 
-/// How often something may be sent.
+/// Limits the rate of sending.
 struct Pace {
   using Clock = std::chrono::steady_clock;
 
@@ -13,14 +13,14 @@ struct Pace {
   Clock::time_point next{};
   bool waits = false;
 
-  /// What comes a little irregularly, at just this pace, is sent all the same: one may be early by an interval.
+  /// Notes that something was sent. Jitter is tolerated: a message at the nominal rate may be early by one interval.
   void sent(Clock::time_point now) {
     next = std::max(next, now - interval) + interval;
     waits = false;
   }
 };
 
-/// The newest of what is sent at that pace.
+/// The newest value and its rate limit.
 template <class T>
 struct Paced {
   Pace pace;

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// What became of bearings follows them within a few milliseconds, if at all.
+/// The result of the data association normally arrives within a few milliseconds.
 constexpr std::chrono::milliseconds kWaitForSightings{150};
 constexpr double kStepsPerRadian = 1e5;
 
@@ -50,12 +50,12 @@ ShownBearings::Clock::time_point ShownBearings::due() const {
   return knows_fates() ? pace_.next : std::max<Clock::time_point>(pace_.next, wait_since_ + kWaitForSightings);
 }
 
-/// As far as the rig is known: bearings go out as they came in.
+/// Converts an azimuth to the robot's frame, if the rig is known.
 double ShownBearings::in_robot_frame(double azimuth_rad) const {
   return wrap((clockwise_ ? -azimuth_rad : azimuth_rad) + yaw_offset_rad_);
 }
 
-/// What is expected turns to the left whatever bearings do.
+/// Expected azimuths always grow counter-clockwise, independent of the direction of the bearings.
 Json ShownBearings::expected() const {
   Json rows = Json::array();
   if (!expectations_ || expectations_->utime != to_us(bearings_->stamp)) return rows;

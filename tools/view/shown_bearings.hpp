@@ -12,9 +12,9 @@
 
 namespace azimuth {
 
-/// The newest image's bearings, which wait a moment for what became of them.
+/// The bearings of the newest image. They wait a short time for the result of the data association.
 ///
-/// Thread contract: thread-bound. Knows one image, and no more of its bearings than `most`.
+/// Thread contract: thread-bound. Stores at most `most` bearings of one image.
 class ShownBearings {
  public:
   using Clock = Pace::Clock;
@@ -24,16 +24,16 @@ class ShownBearings {
   void take(BearingSet set, Clock::time_point now);
   void take(const sightings_t& sightings);
   void take(const expectations_t& expectations) { expectations_ = expectations; }
-  /// How bearings lie on the robot; none: as they come.
+  /// Sets direction and offset of azimuths on the robot. Null: azimuths stay unchanged.
   void take_rig(const Rig* rig);
-  /// Of another daemon; the rig stays.
+  /// Removes the data of the previous daemon session. The rig stays.
   void clear();
 
   bool waits() const { return pace_.waits; }
-  Clock::time_point due() const;  ///< when they are to be sent; asked while they wait
-  /// "trouble", "bearings": [[azimuth in the robot's frame, elevation, identity, kind, fate, landmark]], "expected":
-  /// [[landmark, azimuth in the robot's frame, sigma, elevation, gate]], none where nothing was sent of this image.
-  /// They wait no longer.
+  Clock::time_point due() const;  ///< time of sending; only valid while waits() is true
+  /// Marks the bearings as sent and returns the JSON members "trouble", "bearings": [[azimuth in the robot's frame,
+  /// elevation, identity, kind, fate, landmark]], "expected": [[landmark, azimuth in the robot's frame, sigma,
+  /// elevation, gate]]. "expected" is empty without expectations for this image.
   nlohmann::json sent(Clock::time_point now);
   Stamp stamp() const { return bearings_ ? bearings_->stamp : Stamp{}; }
 
@@ -49,7 +49,7 @@ class ShownBearings {
   Clock::time_point wait_since_{};
   std::optional<sightings_t> sightings_, sightings_before_;
   std::optional<expectations_t> expectations_;
-  Pace pace_{std::chrono::milliseconds(66)};  // 15 a second
+  Pace pace_{std::chrono::milliseconds(66)};  // 15 per second
 };
 
 }  // namespace azimuth

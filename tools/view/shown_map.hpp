@@ -12,17 +12,17 @@
 
 namespace azimuth {
 
-/// The newest map, with what is known of its landmarks. Times are seconds since the time at which what is shown begins.
+/// The newest map with the history of its landmarks. Times are seconds since the start of the shown period.
 ///
-/// Thread contract: thread-bound. Bounded as LandmarkHistory is.
+/// Thread contract: thread-bound. Its memory is bounded like that of LandmarkHistory.
 class ShownMap {
  public:
   explicit ShownMap(std::size_t most) : history_(most) {}
 
-  /// Whether the map is whole with this piece: then its time is known, and changed() is to be asked.
+  /// Takes a piece of a map. True if the map is now complete: utime() is then valid, and changed() should be called.
   bool take(const map_chunk_t& piece);
   std::int64_t utime() const { return pieces_.utime(); }
-  /// Without its time; nothing: it says nothing new.
+  /// The map as JSON without its time; nothing if it has not changed.
   std::optional<nlohmann::json> changed(double t_s);
 
   void take(const sightings_t& sightings, double t_s);

@@ -4,7 +4,7 @@
 
 namespace azimuth {
 
-/// Since when nothing comes, and when that is to be said.
+/// Determines since when no message has arrived, and when to report that.
 ///
 /// Thread contract: thread-bound.
 class SilenceWatch {
@@ -17,16 +17,16 @@ class SilenceWatch {
     heard_ = now;
     told_.reset();
   }
-  /// When it is to be said, if nothing comes until then.
+  /// Time of the next report if no message arrives until then.
   Clock::time_point due() const { return told_ ? *told_ + kTellEvery : heard_ + kSilentAfter; }
-  /// It is said now: for how many seconds it lasts.
+  /// Notes a report. Returns the duration of the silence in seconds.
   double told(Clock::time_point now) {
     told_ = now;
     return std::chrono::duration<double>(now - heard_).count();
   }
 
  private:
-  /// A daemon that has nothing else to say sends a status each second.
+  /// A running daemon sends a status every second.
   static constexpr std::chrono::milliseconds kSilentAfter{1400}, kTellEvery{1000};
 
   Clock::time_point heard_;

@@ -4,7 +4,7 @@
 
 namespace azimuth {
 
-void ToldEvents::tell(EventKind kind, nlohmann::json data, const Heard& now) {
+void ToldEvents::tell(EventKind kind, nlohmann::json data, const Reception& now) {
   data["sent_us"] = now.wall_us;
   last_ = now.at;
   ViewEvent event = made(kind, data);
@@ -17,7 +17,7 @@ void ToldEvents::tell(EventKind kind, nlohmann::json data, const Heard& now) {
   }
 }
 
-void ToldEvents::beat(const Heard& now) {
+void ToldEvents::beat(const Reception& now) {
   if (now.at >= next_beat()) tell(EventKind::beat, nlohmann::json::object(), now);
 }
 

@@ -9,35 +9,36 @@
 #include <vector>
 
 #include "tools/view/event.hpp"
-#include "tools/view/heard.hpp"
 #include "tools/view/lookers.hpp"
+#include "tools/view/reception.hpp"
 
 namespace azimuth {
 
-/// Tells those who look, and keeps what one who comes later is to be told: the journal, and of all else the newest.
+/// Sends events to all clients and stores those that later clients need: the journal, and the newest event of each
+/// other kind.
 ///
 /// Thread contract: thread-bound. Borrows the lookers.
 class ToldEvents {
  public:
   using Clock = std::chrono::steady_clock;
-  /// Whoever hears nothing for much longer knows that nobody is there.
+  /// Interval of beats. A client that receives nothing for much longer knows that the connection is dead.
   static constexpr std::chrono::milliseconds kBeatEvery{500};
 
   ToldEvents(Lookers& lookers, std::size_t journal_lines) : lookers_(&lookers), journal_lines_(journal_lines) {}
 
-  void tell(EventKind kind, nlohmann::json data, const Heard& now);
-  /// A beat, when nothing else has been told for a while.
-  void beat(const Heard& now);
+  void tell(EventKind kind, nlohmann::json data, const Reception& now);
+  /// Sends a beat if no other event has been sent for a while.
+  void beat(const Reception& now);
   Clock::time_point next_beat() const { return last_ + kBeatEvery; }
 
-  /// One that is for nobody yet.
+  /// Makes an event without sending it.
   ViewEvent made(EventKind kind, const nlohmann::json& data) { return make_event(kind, ++count_, data); }
-  /// It holds no longer.
+  /// Removes the stored event of a kind that is no longer valid.
   void forget(EventKind kind) { newest_.at(static_cast<std::size_t>(kind)).reset(); }
-  /// Of another daemon: only the journal goes on.
+  /// Removes all stored events except the journal, after a restart of the daemon.
   void begin_anew() { newest_ = {}; }
 
-  /// In the order in which to tell them.
+  /// The stored events in the order of sending.
   std::vector<ViewEvent> newest() const;
   Lookers& lookers() const { return *lookers_; }
 

@@ -7,7 +7,7 @@
 
 namespace azimuth {
 
-/// A standing robot is a point now and then.
+/// True if two points have at least the spacing in position, heading or time. A standing robot gets occasional points.
 bool Trail::is_apart(const TrailPoint& from, const TrailPoint& to) const {
   return std::hypot(to.T_map_body.x_m - from.T_map_body.x_m, to.T_map_body.y_m - from.T_map_body.y_m) >= apart_m_ ||
          std::abs(wrap(to.T_map_body.heading_rad - from.T_map_body.heading_rad)) >= apart_rad_ ||

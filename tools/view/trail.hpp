@@ -8,31 +8,31 @@
 
 namespace azimuth {
 
-/// A point of the way, in seconds since the time at which what is shown begins.
+/// A point of a trail.
 struct TrailPoint {
-  double t_s = 0.0;
-  Pose2 T_map_body;   ///< of the truth: T_world_body
-  Pose2 T_odom_body;  ///< of the truth: nothing
+  double t_s = 0.0;   ///< time since the start of the shown period [s]
+  Pose2 T_map_body;   ///< for a trail of truth: T_world_body
+  Pose2 T_odom_body;  ///< not used for a trail of truth
   float sigma_m = 0.0F, sigma_heading_rad = 0.0F;
-  std::uint8_t health = 0;  ///< as pose_cov_t has it
+  std::uint8_t health = 0;  ///< as in pose_cov_t
 };
 
-/// Where the robot has been, in at most `most` points however long it drives: where they become too many, every other
-/// one goes, and from then on they are twice as far from each other. The last one is always there.
+/// The path of the robot with at most `most` points. When there are too many points, every other one is removed and the
+/// spacing is doubled. The last point is always present.
 ///
 /// Thread contract: thread-bound.
 class Trail {
  public:
   explicit Trail(std::size_t most) : most_(most) {}
 
-  /// A point that is little newer than the last one and near to it takes its place; one that is older goes where it
-  /// belongs.
+  /// Adds a point. It replaces the last point as long as it is closer than the spacing to the last but one. An older
+  /// point is inserted in order.
   void add(const TrailPoint& point);
   void clear();
 
-  /// In the order of their times.
+  /// The points in order of time.
   std::span<const TrailPoint> points() const { return points_; }
-  /// The first ones that are newer, at most `count`.
+  /// The first points newer than `t_s`, at most `count`.
   std::span<const TrailPoint> after(double t_s, std::size_t count) const;
 
  private:

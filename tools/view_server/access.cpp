@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kLeastToken = 16, kMostToken = 200;
 
-/// "localhost" of "localhost:8017", "::1" of "[::1]:8017".
+/// The host without the port: "localhost" for "localhost:8017", "::1" for "[::1]:8017".
 std::string_view without_port(std::string_view host) {
   if (host.starts_with('[')) {
     const std::size_t end = host.find(']');

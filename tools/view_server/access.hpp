@@ -6,17 +6,17 @@
 
 namespace azimuth {
 
-/// As long for any two texts of one length.
+/// Compares two texts. The time does not depend on the position of the first difference.
 bool same_secret(std::string_view a, std::string_view b);
 
-/// 32 hexadecimal digits that nobody can guess.
+/// A token of 32 random hexadecimal digits.
 std::string random_token();
 
-/// Whether a Host header names this machine as it names itself ("localhost:8017", "127.0.0.1", "[::1]:8017"): a page of
-/// another site that has its name lead here must not read.
+/// True if a Host header is a local name of this machine ("localhost:8017", "127.0.0.1", "[::1]:8017"). This test
+/// prevents DNS rebinding: a page of another site whose name resolves to this machine must not read data.
 bool is_own_name(std::string_view host);
 
-/// What a token may be made of: 16 to 200 letters, digits, "-" and "_". What is wrong with it; nothing: it is one.
+/// The reason why a token is invalid; nothing if it is valid. A token has 16 to 200 letters, digits, "-" and "_".
 std::optional<std::string> why_no_token(std::string_view token);
 
 }  // namespace azimuth

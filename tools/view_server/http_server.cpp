@@ -11,10 +11,10 @@
 namespace azimuth {
 namespace {
 
-/// Of a connection: what the kernel holds back for a slow reader is old when it is read at last.
+/// Send buffer of a connection. It is small, because data that the kernel buffers for a slow client becomes outdated.
 constexpr int kSendBuffer_bytes = 131'072;
 constexpr std::size_t kStreamBlock_bytes = 16'384;
-/// Connections that are kept free for those who come.
+/// Number of connections that are kept free for new clients.
 constexpr std::size_t kSpareConnections = 16;
 
 constexpr std::pair<const char*, const char*> kHeaders[] = {{"Content-Security-Policy",
@@ -34,7 +34,7 @@ struct Connection {
   int socket = -1;
   MHD_Connection* handle = nullptr;
   HttpServer::Clock::time_point idle_since{};
-  bool is_answering = false;  // else it is waited for
+  bool is_answering = false;  // false while the server waits for a request
   bool is_shut = false;
   std::unique_ptr<HttpStream> stream;
   bool is_suspended = false;
@@ -83,7 +83,7 @@ ssize_t read_body(void* held, std::uint64_t position, char* into, std::size_t ro
   return static_cast<ssize_t>(count);
 }
 
-/// What nobody reads at present waits until there is something again.
+/// Reads from the stream. If there is nothing at present, suspends the connection until there is.
 ssize_t read_stream(void* context, std::uint64_t, char* into, std::size_t room) {
   auto& connection = *static_cast<Connection*>(context);
   const std::size_t count = connection.stream->read({into, room});
@@ -122,12 +122,13 @@ HttpAnswer sentence(unsigned status, std::string_view text) {
   return {.status = status, .body = std::make_shared<const std::string>(std::string(text) + '\n')};
 }
 
-/// What the library calls back.
+/// Owns the libmicrohttpd daemon and contains its callbacks.
 class HttpServer::Library {
  public:
   Library(const HttpSettings& settings, HttpHandler& handler, UniqueFd socket)
       : settings_(settings), handler_(handler), port_(port_of(socket)) {
-    // The library closes the socket, if it begins at all. It may call back at once, when all members have to be there.
+    // If the daemon starts, the library uses the socket. Callbacks may come immediately, so all other members must be
+    // initialised before.
     // NOLINTNEXTLINE(cppcoreguidelines-prefer-member-initializer)
     daemon_ = MHD_start_daemon(MHD_USE_EPOLL | MHD_ALLOW_SUSPEND_RESUME, 0, nullptr, nullptr, on_request, this,
                                MHD_OPTION_LISTEN_SOCKET, socket.get(), MHD_OPTION_CONNECTION_LIMIT,
@@ -183,9 +184,9 @@ class HttpServer::Library {
     MHD_resume_connection(connection.handle);
   }
 
-  /// Called when the headers are there, with what follows them, and at the end. Who is answered at once is hung up on,
-  /// so that this is for those alone who want to write; what others send behind their headers is passed over, as long
-  /// as patience lasts.
+  /// The library calls this function when the headers are complete, for each part of the body, and at the end. An
+  /// answer during the first call closes the connection, so only other methods than GET and HEAD are refused then.
+  /// Bodies of GET and HEAD requests are ignored within the time limit.
   static MHD_Result on_request(void* self, MHD_Connection* handle, const char* path, const char* method, const char*,
                                const char*, std::size_t* body_bytes, void** request) {
     static int seen = 0;
@@ -234,7 +235,7 @@ class HttpServer::Library {
     }
   }
 
-  /// A stream ends with its request: nobody is to be told any more.
+  /// A request is complete or its connection failed: destroys its stream.
   static void on_completed(void*, MHD_Connection* handle, void**, MHD_RequestTerminationCode) {
     Connection& connection = *of(handle);
     connection.is_answering = false;
@@ -242,7 +243,7 @@ class HttpServer::Library {
     connection.stream.reset();
   }
 
-  /// The library's own patience begins anew with every byte.
+  /// Closes idle connections. The timeout of the library does not suffice, since it restarts with every byte.
   void give_up_idle(Clock::time_point now) {
     for (Connection& connection : connections_)
       if (!connection.is_answering && now - connection.idle_since > settings_.patience) give_up(connection);
@@ -252,7 +253,7 @@ class HttpServer::Library {
     for (Connection& connection : connections_) {
       if (given_up == too_many) break;
       if (connection.is_answering) continue;
-      give_up(connection);  // the oldest come first
+      give_up(connection);  // the oldest connections come first
       ++given_up;
     }
   }
@@ -266,7 +267,7 @@ class HttpServer::Library {
   HttpSettings settings_;
   HttpHandler& handler_;
   std::uint16_t port_;
-  UniqueFd socket_;  // the library borrows it
+  UniqueFd socket_;  // borrowed by the library
   std::list<Connection> connections_;
   MHD_Daemon* daemon_ = nullptr;
   HttpCounts counts_;

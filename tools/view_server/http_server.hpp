@@ -1,5 +1,5 @@
 #pragma once
-// HTTP for browsers, read only: what the kept library libmicrohttpd does, within bounds.
+// A read-only HTTP server for browsers with bounded resources, based on libmicrohttpd.
 
 #include <chrono>
 #include <cstddef>
@@ -17,29 +17,30 @@ namespace azimuth {
 
 struct HttpSettings {
   std::string address = "127.0.0.1";  ///< numeric, IPv4 or IPv6
-  std::uint16_t port = 0;             ///< 0: any that is free
-  unsigned connections = 200;         ///< at once; beyond, the longest idle give way
+  std::uint16_t port = 0;             ///< 0: any free port
+  unsigned connections = 200;         ///< largest number of simultaneous connections; the longest idle ones are closed
   std::size_t memory_per_connection = 32'768;
-  /// For a whole request, for a keep-alive connection until the next one, and for a reader to take anything at all.
+  /// Time limit for a complete request, for the next request on a keep-alive connection, and for a client that does not
+  /// read.
   std::chrono::seconds patience{10};
 };
 
-/// A request, GET or HEAD. Borrows what the connection has.
+/// A GET or HEAD request. Borrows data of the connection.
 class HttpRequest {
  public:
   virtual ~HttpRequest() = default;
-  virtual std::string_view path() const = 0;  ///< decoded, without what follows "?"
+  virtual std::string_view path() const = 0;  ///< decoded, without the query
   virtual std::optional<std::string_view> argument(const char* name) const = 0;
   virtual std::optional<std::string_view> header(const char* name) const = 0;
   virtual std::optional<std::string_view> cookie(const char* name) const = 0;
   virtual bool is_head() const = 0;
 };
 
-/// Bytes without an end. Dies with its connection.
+/// An endless byte stream as a response. It is destroyed with its connection.
 class HttpStream {
  public:
   virtual ~HttpStream() = default;
-  virtual std::size_t read(std::span<char> into) = 0;  ///< 0: nothing at present
+  virtual std::size_t read(std::span<char> into) = 0;  ///< 0 if there is nothing at present
   virtual bool has_something() const = 0;
 };
 
@@ -48,10 +49,10 @@ struct HttpAnswer {
   std::string type = "text/plain; charset=utf-8";
   std::shared_ptr<const std::string> body;
   std::vector<std::pair<std::string, std::string>> headers = {};
-  std::unique_ptr<HttpStream> stream = {};  ///< in place of a body
+  std::unique_ptr<HttpStream> stream = {};  ///< replaces the body if set
 };
 
-/// A sentence as an answer.
+/// A plain-text answer with one sentence.
 HttpAnswer sentence(unsigned status, std::string_view text);
 
 class HttpHandler {
@@ -60,22 +61,22 @@ class HttpHandler {
   virtual HttpAnswer answer(const HttpRequest& request) = 0;
 };
 
-/// What it served so far.
+/// Statistics of the server.
 struct HttpCounts {
   std::uint64_t connections = 0, requests = 0;
-  std::uint64_t given_up = 0;  ///< connections that asked too slowly, or gave way
+  std::uint64_t given_up = 0;  ///< connections closed because the client was too slow or the limit was reached
 };
 
-/// Serves from the thread that polls: nothing blocks, however slowly anybody asks or reads, and there is no thread of
-/// its own. Other methods than GET and HEAD are answered 405, and every answer has the headers that keep a page to
-/// itself; what is no HTTP at all the library answers in its own words.
+/// The server runs in the thread that polls and has no thread of its own. Slow clients never block it. Methods other
+/// than GET and HEAD are answered with 405. Every answer has security headers that isolate the page. Malformed requests
+/// are answered by the library.
 ///
-/// Thread contract: thread-bound. Borrows the handler. Streams die before it does.
+/// Thread contract: thread-bound. Borrows the handler. All streams are destroyed before the handler.
 class HttpServer {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// The error is a sentence.
+  /// Opens the server. The error is a sentence for the user.
   static tl::expected<std::unique_ptr<HttpServer>, std::string> open(const HttpSettings& settings,
                                                                      HttpHandler& handler);
   ~HttpServer();
@@ -84,12 +85,12 @@ class HttpServer {
 
   std::uint16_t port() const;
   int descriptor() const;  ///< to poll for reading
-  /// When turn() is wanted without any event; none: never.
+  /// Time until turn() must be called even without an event on descriptor(); nothing if that is not necessary.
   std::optional<Clock::duration> due_in() const;
   void turn();
 
   const HttpCounts& counts() const;
-  std::size_t connections() const;  ///< open now
+  std::size_t connections() const;  ///< open connections
 
  private:
   class Library;

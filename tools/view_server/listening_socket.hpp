@@ -7,15 +7,16 @@
 
 namespace azimuth {
 
-/// A TCP socket that listens without blocking. `address` is numeric, IPv4 or IPv6. The error is a sentence with the
+/// A non-blocking listening TCP socket. `address` is a numeric IPv4 or IPv6 address. The error is a sentence with the
 /// likely cause. Reentrant.
 tl::expected<UniqueFd, std::string> listening_socket(const std::string& address, std::uint16_t port);
 
-/// The port it has.
+/// The port of a socket.
 std::uint16_t port_of(const UniqueFd& socket);
 
-/// Whether only this machine can reach the address; nothing for what is no numeric address.
+/// True for a numeric IPv4 or IPv6 address.
 bool is_address(const std::string& address);
+/// True for an address that only this machine can reach.
 bool is_loopback(const std::string& address);
 
 }  // namespace azimuth

@@ -63,8 +63,8 @@ HttpAnswer Window::answer(const HttpRequest& request) {
   return sentence(404, "There is nothing here.");
 }
 
-/// With a token nobody needs to have a name; without one only who sits at this machine may ask. Other sites' pages have
-/// no business here but to lead to the first page.
+/// The answer that denies a request; nothing if access is granted. With a token, any host name is accepted; without
+/// one, only local names of this machine. Pages of other sites may only link to the start page.
 std::optional<HttpAnswer> Window::refusal(const HttpRequest& request) const {
   const std::string_view site = request.header("Sec-Fetch-Site").value_or("same-origin");
   if (site != "same-origin" && site != "none" && request.path() != "/")

@@ -11,14 +11,14 @@
 
 namespace azimuth {
 
-/// Who may look, and how many at once.
+/// Access control of the view.
 struct WindowSettings {
-  std::size_t lookers = 32;
-  std::string token = {};               ///< empty: only by this machine's own name
-  std::string cookie = "azimuth_view";  ///< that holds the token
+  std::size_t lookers = 32;             ///< largest number of simultaneous event streams
+  std::string token = {};               ///< empty: access only under a local name of this machine
+  std::string cookie = "azimuth_view";  ///< name of the cookie with the token
 };
 
-/// What is behind each path (docs/view.md): pages, and what is live or was recorded.
+/// Answers requests by path (docs/view.md): page files, and live or recorded data.
 ///
 /// Thread contract: thread-bound.
 class Window : public HttpHandler {
@@ -28,9 +28,9 @@ class Window : public HttpHandler {
   HttpAnswer answer(const HttpRequest& request) final;
 
  protected:
-  /// What the page asks for, to know which of the two it is: "live" or "recorded".
+  /// "live" or "recorded", for the page.
   virtual std::string_view shows() const = 0;
-  /// What is neither the page nor a module; nothing: there is no such thing.
+  /// Answers paths other than the page and its modules; nothing if the path does not exist.
   virtual std::optional<HttpAnswer> answer_own(const HttpRequest& request) = 0;
   virtual std::size_t lookers() const = 0;
   const WindowSettings& settings() const { return settings_; }
@@ -43,7 +43,7 @@ class Window : public HttpHandler {
   HttpServer::Clock::time_point since_;
 };
 
-/// Borrows the view and those who look.
+/// Serves a live view. Borrows the view and the lookers.
 class LiveWindow final : public Window {
  public:
   LiveWindow(WindowSettings settings, LiveView& view, Lookers& lookers, HttpServer::Clock::time_point now)
@@ -62,7 +62,7 @@ class LiveWindow final : public Window {
 
 class RecordedWindow final : public Window {
  public:
-  /// `run` is what the page of a replay shows, as JSON.
+  /// `run`: data of a replay for the page, as JSON.
   RecordedWindow(WindowSettings settings, std::string run, HttpServer::Clock::time_point now)
       : Window(std::move(settings), now), run_(std::make_shared<const std::string>(std::move(run))) {}
 

@@ -16,7 +16,7 @@ namespace {
 constexpr int kRays = 720;
 constexpr float kLeastEdge = 0.3F;
 
-/// Where a ray meets the edge, as distance from the present circle.
+/// An edge point on a ray, by its distance from the current circle.
 struct EdgePoint {
   Eigen::Vector3d jacobian;  // d distance / d (u, v, radius)
   double distance = 0.0;
@@ -28,7 +28,8 @@ struct EdgePoints {
   int in_map = 0;
 };
 
-/// The strongest edge on a ray within `window` of the ring, if it is one and not on the window's end.
+/// Finds the strongest edge on a ray within `window` of the ring. The weight is 0 if there is no clear edge, or if it
+/// lies at an end of the window.
 EdgePoint strongest(const EdgeMap& map, const ImageCircle& ring, const RayFan::Ray& ray, double window, bool& in_map) {
   constexpr double kStep = 0.5;
   const int steps = static_cast<int>(std::ceil(window / kStep));
@@ -59,14 +60,14 @@ EdgePoints edge_points(const EdgeMap& map, const ImageCircle& ring, double windo
 }
 
 struct Solution {
-  Eigen::Vector3d shift = Eigen::Vector3d::Zero();  // of u, v, radius
-  double sigma = 0.0;                               // of a point's distance
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();  // Correction of u, v, radius
+  double sigma = 0.0;                               // Of a point's distance
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
 
   double residual(const EdgePoint& point) const { return point.distance - point.jacobian.dot(shift); }
 };
 
-/// 1.48 medians of the absolute residuals: what they would deviate by if they were Gaussian, whatever the outliers.
+/// 1.48 times the median absolute residual: a robust estimate of the standard deviation.
 double spread(const std::vector<EdgePoint>& points, const Solution& solution) {
   std::vector<double> sizes;
   sizes.reserve(points.size());
@@ -76,7 +77,7 @@ double spread(const std::vector<EdgePoint>& points, const Solution& solution) {
   return std::max(0.5, 1.48 * *middle);
 }
 
-/// Iteratively reweighted least squares with Tukey's weights.
+/// Iteratively reweighted least squares with Tukey's robust kernel.
 Solution solve(const std::vector<EdgePoint>& points) {
   constexpr int kIterations = 12;
   Solution solution;
@@ -91,14 +92,14 @@ Solution solve(const std::vector<EdgePoint>& points) {
       normal += weight * point.jacobian * point.jacobian.transpose();
       right += weight * point.distance * point.jacobian;
     }
-    normal.diagonal().array() += 1e-9;  // no point left: no shift
+    normal.diagonal().array() += 1e-9;  // Without points the shift is 0
     solution.shift = normal.ldlt().solve(right);
     solution.information = normal;
   }
   return solution;
 }
 
-/// Neighbouring rays read the same pixels: only points about three pixels apart are independent.
+/// Neighbouring rays read the same pixels, so only points about three pixels apart count as independent.
 void add_uncertainty(const Solution& solution, CircleFit& fit) {
   const double rays_per_point = std::max(1.0, 3.0 * kRays / (2.0 * CV_PI * fit.ring.radius));
   const Eigen::Matrix3d covariance = solution.sigma * solution.sigma * rays_per_point * solution.information.inverse();
@@ -109,7 +110,7 @@ void add_uncertainty(const Solution& solution, CircleFit& fit) {
 }  // namespace
 
 CircleFit fit_circle(const EdgeMap& map, const ImageCircle& start) {
-  constexpr std::array kWindows{0.03, 0.02, 0.015, 0.015, 0.015};  // of the radius
+  constexpr std::array kWindows{0.03, 0.02, 0.015, 0.015, 0.015};  // In multiples of the radius
   constexpr std::size_t kFewest = kRays / 10;
   CircleFit fit;
   fit.ring = start;

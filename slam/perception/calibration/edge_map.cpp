@@ -9,9 +9,9 @@
 namespace azimuth {
 namespace {
 
-constexpr double kSmoothing_px = 1.0;  // of the reduced image before edges are looked for
-constexpr double kSpread_px = 1.2;     // of edges, so that a ring need not be hit to the pixel
-constexpr float kFaintest = 3.0F;      // slope [levels/px] that noise makes after smoothing
+constexpr double kSmoothing_px = 1.0;  // Smoothing of the reduced image before the edge detection
+constexpr double kSpread_px = 1.2;     // Blur of edges, so that a ring need not meet them exactly
+constexpr float kFaintest = 3.0F;      // Slope [levels/px] that noise causes after smoothing
 
 struct Gradient {
   cv::Mat u, v, size;  // CV_32FC1
@@ -29,8 +29,8 @@ Gradient gradient(const cv::Mat& gray, double scale) {
   return slope;
 }
 
-/// The slope that counts half: twice as much hardly counts more, so that a lamp does not outweigh the rim. In an image
-/// full of noise or texture everything is steep, and only what is steeper stands out.
+/// The slope with weight 1/2. Greater slopes gain little, so that a lamp does not outweigh the rim. It is the median
+/// slope: in an image full of noise or texture only steeper edges stand out.
 float half_slope(const cv::Mat& size) {
   std::vector<float> all(size.begin<float>(), size.end<float>());
   const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
@@ -38,9 +38,9 @@ float half_slope(const cv::Mat& size) {
   return std::max(kFaintest, *middle);
 }
 
-/// Whether the pixel is as steep as its neighbours up and down the slope: edges become thin, steep ones no wider.
+/// Whether the pixel is a local maximum along the slope, which makes all edges thin, steep ones too.
 bool is_ridge(const Gradient& slope, int u, int v) {
-  constexpr float kTan = 0.41421356F;  // of 22.5 degrees
+  constexpr float kTan = 0.41421356F;  // Of 22.5 degrees
   const float du = slope.u.at<float>(v, u), dv = slope.v.at<float>(v, u), size = slope.size.at<float>(v, u);
   const bool flat = std::abs(dv) < kTan * std::abs(du), steep = std::abs(du) < kTan * std::abs(dv);
   const int step_u = steep ? 0 : 1;
@@ -74,7 +74,8 @@ EdgeMap EdgeMapBuilder::build() const {
   assert(images_ > 0);
   EdgeMap map{.scale = scale_, .normals = {}, .detail = detail_ / images_};
   cv::GaussianBlur(normals_, map.normals, {}, kSpread_px);
-  // Along a straight edge, 1 / (sigma sqrt(2 pi)) of each pixel stays in place: an unbroken steep one counts 1 again.
+  // Along a straight edge, the blur keeps 1 / (sigma sqrt(2 pi)) of each pixel in place. The factor restores 1 for an
+  // unbroken steep edge.
   map.normals *= kSpread_px * std::sqrt(2.0 * CV_PI) / images_;
   return map;
 }

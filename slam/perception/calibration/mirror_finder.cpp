@@ -15,7 +15,7 @@ namespace {
 constexpr double kCoarseSide = 192.0, kFineSide = 640.0;
 constexpr std::size_t kCandidates = 16;
 
-// What a mirror must have. Circles that chance draws into clutter stay below at least one of them.
+// Least values for a mirror. Circles that arise by chance from clutter fail at least one of them.
 constexpr double kLeastClearness = 0.35, kLeastSeen = 0.6, kLeastContrast = 0.1;
 
 double scale_to(double side, const FrameFormat& format) {
@@ -28,7 +28,7 @@ cv::Mat gray_of(const ImageView& image) {
   return gray;
 }
 
-/// How much more there is to see just inside than just outside, from -1 to 1. Where the image ends, nothing is.
+/// How much more detail there is just inside the ring than just outside, from -1 to 1. Outside the image there is none.
 double contrast(const EdgeMap& map, const ImageCircle& ring) {
   const double inside = detail_between(map, ring, 0.90, 0.97), outside = detail_between(map, ring, 1.03, 1.10);
   if (std::isnan(inside)) return 0.0;
@@ -68,7 +68,7 @@ Circle in_image(const EdgeMap& map, const ImageCircle& ring) {
   return {{map.to_image(ring.u), map.to_image(ring.v)}, ring.radius / map.scale};
 }
 
-/// The ring as far as its edge tells it better than the search for it did.
+/// The ring refined by a fit to its edge, if the edge is clear enough; else the ring of the search.
 ImageCircle sharpened(const EdgeMap& map, const ImageCircle& ring) {
   const CircleFit fit = fit_circle(map, ring);
   return fit.seen >= kLeastSeen ? fit.ring : ring;

@@ -12,23 +12,24 @@ struct Circle {
   double radius_px = 0.0;
 };
 
-/// A mirror as it was found in images.
+/// The circles of a mirror, as found in images.
 struct MirrorCircle {
-  Circle rim;                    ///< where the reflection ends
-  double sigma_centre_px = 0.0;  ///< standard deviation of the centre in its worst direction
+  Circle rim;                    ///< The circle at which the reflection ends
+  double sigma_centre_px = 0.0;  ///< Standard deviation of the centre in its worst direction
   double sigma_radius_px = 0.0;
-  double rim_in_image = 0.0;    ///< share of the rim
-  double rim_seen = 0.0;        ///< share of that on which an edge lies
-  double clearness = 0.0;       ///< of the rim against other circles: 1 and more clear, 0.35 just enough
-  std::optional<Circle> inner;  ///< in which camera and robot see themselves
+  double rim_in_image = 0.0;  ///< Share of the rim that lies inside the image
+  double rim_seen = 0.0;      ///< Share of the visible rim on which an edge was found
+  /// Distinctness of the rim from other circles: 1 or more is clear, 0.35 is just enough.
+  double clearness = 0.0;
+  std::optional<Circle> inner;  ///< The disc in which camera and robot see themselves, if found
 };
 
-/// Finds the mirror of an omnidirectional camera in an image, or better in several of different scenes, without a
-/// target: the circle that edges follow all round, within which the world is and beyond which is less to see. The rim
-/// may be cut by the image; what surrounds it need not be dark. Its centre is where the optical axis meets the image as
-/// far as mirror and lens are aligned.
+/// Finds the mirror of an omnidirectional camera without a target, from one image or, better, from several images of
+/// different scenes. The mirror's rim is the circle along which edges run all round, with more detail inside than
+/// outside. The image border may cut the rim, and the surroundings of the mirror need not be dark. The rim's centre is
+/// the point at which the optical axis meets the image, up to misalignment of mirror and lens.
 ///
-/// Thread contract: thread-bound. Not for the steady state: allocates, and takes a good part of a second.
+/// Thread contract: thread-bound. Not for the steady state: it allocates and takes a considerable part of a second.
 class MirrorFinder {
  public:
   MirrorFinder();
@@ -36,11 +37,12 @@ class MirrorFinder {
   MirrorFinder(MirrorFinder&&) noexcept;
   MirrorFinder& operator=(MirrorFinder&&) noexcept;
 
-  /// False, and nothing added: not readable(), smaller than kLeastSide_px or of another size than the first.
+  /// Returns false and adds nothing if the image is not readable(), smaller than kLeastSide_px or of another size than
+  /// the first image.
   bool add(const ImageView& image);
   int images() const;
 
-  /// Nothing: no circle in these images is surely a mirror.
+  /// Returns nullopt if no circle in the images is clearly a mirror.
   std::optional<MirrorCircle> find() const;
 
   static constexpr int kLeastSide_px = 64;

@@ -10,10 +10,10 @@
 namespace azimuth {
 namespace {
 
-constexpr double kLeastInMap = 0.4;  // a smaller part of a rim does not say where the centre is
+constexpr double kLeastInMap = 0.4;  // A smaller part of a rim does not determine its centre
 
-/// The pixel of the map that a point lies in; false when it is near the edge, where there are no edges to be seen. Cuts
-/// instead of rounding: the same where it matters, and most of the search is spent here.
+/// Finds the pixel of the map that contains a point. Returns false near the border of the map, where edges are not
+/// defined. Truncates instead of rounding, which agrees for all accepted points and is faster in this hot loop.
 bool pixel_at(const EdgeMap& map, double u, double v, int& column, int& row) {
   constexpr double kHalf_px = 0.5;
   column = static_cast<int>(u + kHalf_px);

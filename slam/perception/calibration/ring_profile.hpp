@@ -1,5 +1,5 @@
 #pragma once
-// How far edges follow circles about one centre.
+// Measures how well edges follow circles about one centre.
 
 #include <vector>
 
@@ -7,17 +7,17 @@
 
 namespace azimuth {
 
-/// In pixels of the map it is about.
+/// A circle in pixels of an edge map.
 struct ImageCircle {
   double u = 0.0, v = 0.0, radius = 0.0;
 };
 
-/// Directions evenly all round, with what is needed of each.
+/// Evenly spaced directions over the full circle, with their precomputed sines and cosines.
 class RayFan {
  public:
   struct Ray {
-    double cos, sin;   ///< of the direction
-    float cos2, sin2;  ///< of twice the direction
+    double cos, sin;   ///< Cosine and sine of the direction
+    float cos2, sin2;  ///< Cosine and sine of twice the direction
   };
   explicit RayFan(int rays);
   const std::vector<Ray>& rays() const { return rays_; }
@@ -26,33 +26,36 @@ class RayFan {
   std::vector<Ray> rays_;
 };
 
-/// Edge along the circle at a point of it: 1 steep, 0 none, below 0 an edge across.
+/// Edge strength along the circle at one of its points: 1 for a steep edge, 0 for none, negative for an edge across the
+/// circle.
 struct Follows {
   bool in_map = false;
   float value = 0.0F;
 };
 Follows follows(const EdgeMap& map, const ImageCircle& ring, const RayFan::Ray& ray);
 
-/// Rings about one centre, `step` apart.
+/// Edge strength along rings about one centre with radii `step` apart.
 struct RingProfile {
   double first_radius = 0.0, step = 1.0;
-  std::vector<double> follows;  ///< mean over the part of the ring in the map
-  std::vector<double> in_map;   ///< share of the ring
+  std::vector<double> follows;  ///< Mean edge strength along the part of the ring inside the map
+  std::vector<double> in_map;   ///< Share of the ring inside the map
 
   double radius(std::size_t i) const { return first_radius + step * static_cast<double>(i); }
 };
 
-/// Replaces `out`; `rings` of them.
+/// Replaces the content of `out` with the profile of `rings` rings, starting with the ring `first`.
 void read_profile(const EdgeMap& map, const ImageCircle& first, double step, std::size_t rings, const RayFan& fan,
                   RingProfile& out);
 
-/// How much ring `i` looks like the rim of a mirror: an edge all round, with edges along the circle also just inside it
-/// (what lies flat in the world, near the rim) and none just outside. Up to 2; 0 when most of it is out of the map.
+/// Rates how much ring `i` looks like the rim of a mirror. A rim has an edge all round, edges along the circle just
+/// inside it (flat objects of the world, seen near the rim) and none just outside. The score is at most 2, and 0 if
+/// most of the ring is outside the map.
 double rim_score(const RingProfile& profile, std::size_t i);
-/// Rings on either side of a ring of this radius that rim_score() looks at.
+/// Number of rings on either side of a ring of this radius that rim_score() reads.
 std::size_t rim_reach(double radius, double step);
 
-/// Mean detail between two circles, as shares of the ring's radius; NaN when hardly any of it is in the map.
+/// Mean detail between two circles whose radii are `from` and `to` times the ring's radius. NaN if hardly any of this
+/// area is inside the map.
 double detail_between(const EdgeMap& map, const ImageCircle& ring, double from, double to);
 
 }  // namespace azimuth

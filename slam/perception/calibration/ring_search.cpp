@@ -14,8 +14,8 @@ struct Scored {
   ImageCircle ring;
 };
 
-/// The best rim about one centre among radii from `first` on. Between rims that are as clear, the larger one has more
-/// to show for it: the noise of a mean over a ring goes down with the root of its length.
+/// The best rim about one centre among radii from `first` on. The square root of the radius favours the larger of two
+/// equally clear rims: the noise of a mean over a ring falls with the root of its length.
 Scored best_about(const EdgeMap& map, const ImageCircle& first, double step, std::size_t rings, const RayFan& fan,
                   RingProfile& profile) {
   const double least = std::max(4.0, first.radius);
@@ -51,7 +51,7 @@ double apart(const ImageCircle& a, const ImageCircle& b) {
   return hypotenuse(a.u - b.u, a.v - b.v) + std::abs(a.radius - b.radius);
 }
 
-/// The best within `span` of `start`, in steps of `step`.
+/// The best rim within `span` of `start`, in steps of `step`.
 ImageCircle best_on_grid(const EdgeMap& map, const ImageCircle& start, double span, double step) {
   const RayFan fan(192);
   const auto rings = static_cast<std::size_t>(std::lround(4.0 * span / step)) + 1;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFF;
 
-/// Samples of `lower` that have one of `upper` above them when that is shifted to the right.
+/// Number of samples of `lower` that have a sample of `upper` above them after `upper` is shifted right by `shift`.
 int overlap(const ColourRun& upper, const ColourRun& lower, int shift) {
   return std::max(0, std::min(upper.end + shift, +lower.end) - std::max(upper.begin + shift, +lower.begin));
 }
@@ -20,9 +20,9 @@ int overlap(const ColourRun& upper, const ColourRun& lower, int shift) {
 
 double compactness(double area, double perimeter) { return 4.0 * std::numbers::pi * area / (perimeter * perimeter); }
 
-/* Crofton's formula over four directions: lines a sample apart cross the outline so often, P = pi / 8 (n_0 + n_90 +
- * (n_45 + n_135) / sqrt 2). Within 5 % for straight outlines of any direction, and right for a disc, where counting the
- * sides of samples is up to 41 % too long.
+/* Crofton's formula over four directions: P = pi / 8 (n_0 + n_90 + (n_45 + n_135) / sqrt 2), where n is the number of
+ * times that lines of one direction, one sample apart, cross the outline. The result is exact for a disc and within 5 %
+ * for straight outlines of any direction. The number of sample sides would be up to 41 % too long.
  */
 double Blobs::perimeter_of(int area, int runs, const Overlap& shared) {
   const int across = 2 * runs, down = 2 * (area - shared.straight);
@@ -74,13 +74,13 @@ void Blobs::join(std::uint32_t upper, std::uint32_t lower) {
 
 std::uint32_t Blobs::root(std::uint32_t run) {
   while (parents_[run] != run) {
-    parents_[run] = parents_[parents_[run]];  // halves the way for those who come later
+    parents_[run] = parents_[parents_[run]];  // Path halving for later searches
     run = parents_[run];
   }
   return run;
 }
 
-/// The blob that a run belongs to; begins one with its first run, which comes before all others.
+/// The blob to which a run belongs. A blob's first run, which comes before all its others, creates the blob.
 std::uint32_t Blobs::number_of(std::uint32_t run) {
   const std::uint32_t top = root(run);
   if (top == run) {

@@ -8,15 +8,15 @@
 
 namespace azimuth {
 
-/// Samples of one class that hang together, corners included.
+/// A connected set of samples of one class (8-neighbourhood).
 struct Blob {
   std::uint8_t class_number = 0;
-  int area = 0;            ///< samples
-  double perimeter = 0.0;  ///< sides of a sample
+  int area = 0;            ///< Number of samples
+  double perimeter = 0.0;  ///< In sides of a sample
   std::uint32_t first_run = 0;
 };
 
-/// 4 pi area / perimeter^2 (SPEC I.11): 1 for a disc, less for everything else.
+/// Returns 4 pi area / perimeter^2 (mathematics I.11): 1 for a disc, less for any other shape.
 double compactness(double area, double perimeter);
 
 /// Groups runs into blobs.
@@ -24,22 +24,22 @@ double compactness(double area, double perimeter);
 /// Thread contract: thread-bound. Nothing allocates once storage has grown to the most runs.
 class Blobs {
  public:
-  /// `runs` by rows from above, then from left to right, as find_runs() writes them. They must stay where they are as
-  /// long as blobs are asked for.
+  /// `runs` must be sorted by row from above, then from left to right, as find_runs() writes them. They must stay valid
+  /// as long as this object is asked for blobs.
   void group(std::span<const ColourRun> runs);
 
-  /// In the order of their first runs.
+  /// All blobs, in the order of their first runs.
   const std::vector<Blob>& all() const { return blobs_; }
 
-  /// Replaces `out` by the runs of one blob, in their order.
+  /// Replaces the content of `out` with the runs of one blob, in their order.
   void runs_of(const Blob& blob, std::vector<ColourRun>& out) const;
 
-  /// The class of a sample of the image that was grouped; 0: none.
+  /// The class of a sample of the grouped image; 0 if it has none.
   std::uint8_t class_at(int column, int row) const;
 
  private:
-  /// Samples that have one of the same blob above them, straight or shifted by one: what is left of all samples is
-  /// outline.
+  /// Numbers of samples that have a sample of the same blob in the row above, in the same column or shifted by one
+  /// column. The remaining samples lie on the outline.
   struct Overlap {
     int straight = 0, right = 0, left = 0;
 
@@ -63,13 +63,13 @@ class Blobs {
   std::uint32_t root(std::uint32_t run);
 
   std::span<const ColourRun> runs_;
-  std::vector<std::uint32_t> row_starts_;  // index of the first run of each row, one more at the end
-  std::vector<std::uint32_t> parents_;     // of each run: an earlier one of the same blob, or itself
-  std::vector<Overlap> overlaps_;          // of each run with those above it
-  std::vector<std::uint32_t> nexts_;       // of each run: the next of the same blob
-  std::vector<std::uint32_t> lasts_;       // of each blob
-  std::vector<std::uint32_t> numbers_;     // of each run that is its own parent: its blob
-  std::vector<Sums> sums_;                 // of each blob, over all its runs
+  std::vector<std::uint32_t> row_starts_;  // Index of the first run of each row, and the end index
+  std::vector<std::uint32_t> parents_;     // Of each run: an earlier run of the same blob, or itself.
+  std::vector<Overlap> overlaps_;          // Of each run: its overlap with the runs above it.
+  std::vector<std::uint32_t> nexts_;       // Of each run: the next run of the same blob.
+  std::vector<std::uint32_t> lasts_;       // Of each blob: its last run.
+  std::vector<std::uint32_t> numbers_;     // Of each run that is its own parent: the index of its blob.
+  std::vector<Sums> sums_;                 // Of each blob: the sums over all its runs.
   std::vector<Blob> blobs_;
 };
 

@@ -6,13 +6,13 @@
 namespace azimuth {
 namespace {
 
-constexpr int kStep = 1 << ClassTable::kDropped;  // values that share a cell
+constexpr int kStep = 1 << ClassTable::kDropped;  // Number of sample values that share a cell
 constexpr int kCells = 1 << ClassTable::kBits;
 
-/// The value that stands for a cell.
+/// The value that represents a cell.
 std::uint8_t middle(int cell) { return static_cast<std::uint8_t>(cell * kStep + kStep / 2); }
 
-/// The least distance from 128 within a cell.
+/// The least distance from 128 of the sample values in a cell.
 int off_neutral(int cell) {
   const int low = cell * kStep, high = low + kStep - 1;
   return std::max({0, low - 128, 128 - high});

@@ -8,20 +8,20 @@
 
 namespace azimuth {
 
-/// Number of a colour class from 1; 0: none.
+/// Number of a colour class, from 1; 0 denotes no class.
 using ClassNumber = std::uint8_t;
 
-/// The three samples of a pixel as they come from the camera, red, green, blue or luma, U, V.
+/// The meaning of a pixel's three samples as the camera delivers them: red, green, blue, or luma, U, V.
 enum class SampleSpace : std::uint8_t { rgb, yuv };
 
-/// The class of every colour there is, at 6 bits a sample: what takes a hundred operations is looked up in one.
+/// Lookup table for the class of every colour, at 6 bits a sample. A lookup replaces about a hundred operations.
 ///
-/// Thread contract: reentrant. 256 kB.
+/// Thread contract: reentrant. The table occupies 256 kB.
 class ClassTable {
  public:
   static constexpr unsigned kBits = 6, kDropped = 8 - kBits;
 
-  /// The first kMostColourClasses classes count.
+  /// Only the first kMostColourClasses classes are used.
   ClassTable(const ColourSettings& settings, SampleSpace space);
 
   static constexpr std::size_t index(unsigned first, unsigned second, unsigned third) {
@@ -33,8 +33,8 @@ class ClassTable {
   SampleSpace space() const { return space_; }
   const ClassNumber* data() const { return classes_.data(); }
 
-  /// No pixel with less colour than this has a class. Of RGB: largest less smallest sample. Of YUV: the larger distance
-  /// of U and V from 128.
+  /// The least chroma of any pixel that has a class. Chroma in RGB: largest minus smallest sample. Chroma in YUV: the
+  /// larger of the distances of U and V from 128.
   std::uint8_t least_chroma() const { return least_chroma_; }
 
  private:
@@ -43,7 +43,7 @@ class ClassTable {
   std::uint8_t least_chroma_ = 255;
 };
 
-/// The class of one colour, without a table.
+/// Computes the class of one colour without a table.
 ClassNumber class_of(const ColourSettings& settings, Rgb colour);
 
 }  // namespace azimuth

@@ -14,7 +14,7 @@
 namespace azimuth {
 namespace {
 
-/// One run in so many samples is far beyond what any scene shows and bounds the time an image takes.
+/// At most one run per this many samples, far more than real scenes have; the limit bounds the time of an image.
 constexpr std::size_t kSamplesPerRun = 16;
 constexpr std::size_t kFewestRuns = 64;
 
@@ -23,7 +23,7 @@ SampleSpace space_of(PixelFormat pixels) {
   return is_yuv ? SampleSpace::yuv : SampleSpace::rgb;
 }
 
-/// Samples of `side` x `side` pixels; the first one's middle is at (side - 1) / 2.
+/// The grid of samples of `side` x `side` pixels; the centre of the first sample is at (side - 1) / 2.
 SampleGrid grid_about(const ImageAxes& axes, int side) {
   const double first_px = 0.5 * (side - 1);
   return {{first_px - axes.centre_px.x(), first_px / axes.beta - axes.centre_px.y()}, {side / 1.0, side / axes.beta}};
@@ -52,7 +52,8 @@ void ColourPerception::observe(const ImageView& image, BearingSet& out) {
     if (const std::optional<Bearing> bearing = bearing_of(blob)) out.bearings.push_back(*bearing);
 }
 
-/// Whether images like this can be used; lays out what does not change from one to the next.
+/// Prepares the members that depend on the format, if it changed. Returns false if images of this format cannot be
+/// used.
 bool ColourPerception::prepare(const FrameFormat& format) {
   if (!has_colour(format.pixels) || !is_size_of(format, camera_rig_.image)) return false;
   const bool same_size = format.width_px == format_.width_px && format.height_px == format_.height_px;
@@ -62,7 +63,7 @@ bool ColourPerception::prepare(const FrameFormat& format) {
   rig.image.width_px = format.width_px;
   rig.image.height_px = format.height_px;
   axes_ = axes_of(rig.image);
-  std::string ignored;  // settings refuse a tilt where nothing is known of elevations
+  std::string ignored;  // The settings check rejects a tilt without a camera model that knows elevations
   if (!tilt_of(rig).is_level()) camera_ = camera_of(rig, ignored);
   pixels_per_sample_ = pixels_per_sample(format.pixels);
   visible_.emplace(ImageMask(axes_, mask_of(rig.image)), format.width_px, format.height_px, pixels_per_sample_);
@@ -73,7 +74,7 @@ bool ColourPerception::prepare(const FrameFormat& format) {
   return true;
 }
 
-/// False when there are too many runs.
+/// Returns false if there are too many runs.
 bool ColourPerception::group_colours(const ImageView& image) {
   const Scan scan{reinterpret_cast<const std::uint8_t*>(image.bytes.data()), image.format, table_->data(),
                   table_->least_chroma()};
@@ -127,8 +128,8 @@ std::optional<UprightShape> ColourPerception::upright_shape(const Blob& blob) {
   return sides_.find(outline_, radial_line_rad(outline_), pixels_per_sample_, is_background);
 }
 
-/// Levelling makes things larger on one side of the image and smaller on the other: by what a pixel covers here and
-/// there.
+/// Levelling enlarges one side of the image and reduces the other. The factor follows from the solid angles that a
+/// pixel covers in the tilted and in the level image.
 double ColourPerception::level_area_px2(const Blob& blob, const UprightShape& shape) const {
   const double area_px2 = blob.area * grid_.step_px.prod();
   if (!is_tilted()) return area_px2;
@@ -140,7 +141,7 @@ double ColourPerception::level_area_px2(const Blob& blob, const UprightShape& sh
   return here && there ? area_px2 * std::abs(here->determinant() / there->determinant()) : area_px2;
 }
 
-/// As a level camera would show it. False: a part of it would be beyond its image.
+/// Maps the outline to the image of a level camera. Returns false if a part of it would lie outside that image.
 bool ColourPerception::level_outline() {
   if (!is_tilted()) return true;
   for (CentredPoint& point : outline_) {

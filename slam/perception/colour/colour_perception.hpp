@@ -15,16 +15,16 @@
 
 namespace azimuth {
 
-/// Finds upright landmarks painted in one of a few colours (SPEC I.11): where the optical axis is and which way
-/// azimuths grow is all it needs to know of a camera whose axis is vertical. Where it leans, or may lean, the rig's
-/// model of the camera says how high things are seen; outlines are then those that a level camera would show, in which
-/// upright things have their sides along radii. A bearing's kind is the number of its colour class, from 0, its sigma
-/// what this very outline is good for; it has neither elevation nor identity.
+/// Finds upright landmarks painted in one of a few colours (mathematics I.11). For a camera with a vertical optical
+/// axis the front end needs only the image centre and the direction in which azimuths grow. If the rig tilts the
+/// camera, the rig's camera model supplies elevations, and outlines are mapped to the image of a level camera, in which
+/// the sides of upright objects lie along radii. A bearing's kind is the index of its colour class, from 0; its sigma
+/// follows from the fit of this outline. The bearing has neither elevation nor identity.
 ///
-/// Reads rgb8, bgr8, yuyv, uyvy and the Bayer formats. Trouble `unreadable`: gray8, in which there are no colours; an
-/// image of another size than the rig's; one so full of specks of colour that it is none of the world.
+/// Supports rgb8, bgr8, yuyv, uyvy, nv12 and the Bayer formats. The trouble is `unreadable` for gray8, which has no
+/// colour, for an image of another size than the rig's, and for an image with too many colour runs to be a real scene.
 ///
-/// Thread contract: thread-bound. Allocates with the first image and with one of a new format or size, then never.
+/// Thread contract: thread-bound. Allocates for the first image and for each image of a new format or size.
 class ColourPerception final : public Perception {
  public:
   ColourPerception(const CameraRig& rig, const ColourSettings& settings);
@@ -44,14 +44,14 @@ class ColourPerception final : public Perception {
 
   const CameraRig camera_rig_;
   const ColourSettings settings_;
-  FrameFormat format_;  // what the members below are made for
+  FrameFormat format_;  // The format for which the members below are prepared
   ImageAxes axes_;
-  std::optional<CameraModel> camera_;  // where there is a tilt
+  std::optional<CameraModel> camera_;  // Set only if the rig tilts the camera
   int pixels_per_sample_ = 1;
   std::optional<VisibleArea> visible_;
   std::optional<ClassTable> table_;
   SampleGrid grid_;
-  std::vector<ColourRun> runs_;  // room for as many as there may be
+  std::vector<ColourRun> runs_;  // Its size is the greatest permitted number of runs
   Blobs blobs_;
   std::vector<ColourRun> runs_of_blob_;
   std::vector<CentredPoint> outline_;

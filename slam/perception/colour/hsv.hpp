@@ -10,19 +10,21 @@ struct Rgb {
   friend bool operator==(const Rgb&, const Rgb&) = default;
 };
 
-/// A colour as the hexcone model has it. Saturation and value in [0, 1].
+/// A colour in the hexcone model. Saturation and value are in [0, 1].
 struct Hsv {
-  double hue_deg = 0.0;  ///< [0, 360): red 0, green 120, blue 240; 0 for greys
+  double hue_deg = 0.0;  ///< In [0, 360): red 0, green 120, blue 240; 0 for greys.
   double saturation = 0.0;
   double value = 0.0;
 };
 
 Hsv hsv_of(Rgb colour);
 
-/// BT.601 of all 256 steps, or of 16 to 235 (luma) and 16 to 240 (chroma). What no RGB colour has is cut off.
+/// Converts BT.601 samples of full range (0 to 255) or of 16 to 235 (luma) and 16 to 240 (chroma). Values outside the
+/// RGB range are clamped.
 Rgb rgb_of_yuv(std::uint8_t luma, std::uint8_t u, std::uint8_t v, bool full_range);
 
-/// Whether `hue_deg` lies in the interval, ends included; from a larger to a smaller angle it passes through 0.
+/// Whether `hue_deg` lies in the interval, ends included. An interval from a larger to a smaller angle passes through
+/// 0.
 bool hue_between(double hue_deg, double from_deg, double to_deg);
 
 bool fits(const ColourClass& colours, const Hsv& colour);

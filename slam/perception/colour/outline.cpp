@@ -8,14 +8,14 @@ namespace {
 
 using Runs = std::span<const ColourRun>;
 
-/// The runs of `row` at the beginning of `runs`.
+/// The leading runs of `runs` that lie in `row`.
 Runs first_row(Runs runs, int row) {
   std::size_t count = 0;
   while (count < runs.size() && runs[count].row == row) ++count;
   return runs.first(count);
 }
 
-/// Calls for each column of `row` that has none of `beside` next to it.
+/// Calls `visit` for each column covered by `row` but not by `beside`.
 template <class Visit>
 void visit_uncovered(Runs row, Runs beside, Visit visit) {
   std::size_t first = 0;

@@ -7,11 +7,11 @@
 
 namespace azimuth {
 
-/// From the image's centre, in pixels as wide as high.
+/// A point relative to the image centre, in square pixels.
 using CentredPoint = Eigen::Vector2d;
 
-/// From columns and rows of samples to points about the image's centre: sample (0, 0) is at `origin_px`, its
-/// neighbours `step_px` further on.
+/// Maps columns and rows of samples to points about the image centre: sample (0, 0) is at `origin_px`, neighbouring
+/// samples are `step_px` apart.
 struct SampleGrid {
   CentredPoint origin_px = CentredPoint::Zero();
   Eigen::Vector2d step_px = Eigen::Vector2d::Ones();
@@ -21,8 +21,8 @@ struct SampleGrid {
   }
 };
 
-/// Replaces `out` by the middles of all sides of samples at which the blob made of `runs` ends, those of holes
-/// included. `runs` by rows from above, then from left to right.
+/// Replaces the content of `out` with the midpoints of all sample sides on the outline of the blob made of `runs`,
+/// holes included. `runs` must be sorted by row from above, then from left to right.
 void outline_of(std::span<const ColourRun> runs, const SampleGrid& grid, std::vector<CentredPoint>& out);
 
 }  // namespace azimuth

@@ -9,11 +9,11 @@
 namespace azimuth {
 namespace {
 
-constexpr double kShortest = 4.0;   // samples along the radius
-constexpr std::size_t kFewest = 4;  // points of a side
-/// A side's points do not err independently: the steps of a slanted edge repeat every few samples.
+constexpr double kShortest = 4.0;   // Samples along the radius
+constexpr std::size_t kFewest = 4;  // Points of a side
+/// The errors of a side's points are correlated: the steps of a slanted edge repeat every few samples.
 constexpr double kCorrelated = 4.0;
-constexpr std::size_t kTries = 16;  // lines, of which the best is taken
+constexpr std::size_t kTries = 16;  // Number of candidate lines
 
 double cross(const CentredPoint& a, const CentredPoint& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -53,7 +53,7 @@ bool RadialSides::measure_extent(std::span<const CentredPoint> outline) {
   return nearest_px_ >= 1.0 && farthest_px_ - nearest_px_ >= kShortest * sample_px_;
 }
 
-/// The outermost point on the side of `sign` for each sample along the radius.
+/// Collects, for each sample along the radius, the outermost point on the side of `sign`.
 void RadialSides::collect(std::span<const CentredPoint> outline, std::vector<SidePoint>& side, int sign) const {
   constexpr double kNothing = -std::numeric_limits<double>::max();
   side.assign(static_cast<std::size_t>((farthest_px_ - nearest_px_) / sample_px_) + 1, {0.0, sign * kNothing});
@@ -89,7 +89,7 @@ void RadialSides::keep_straight(std::vector<SidePoint>& side) const {
   std::erase_if(side, [&](const SidePoint& point) { return std::abs(line.off_px(point)) > within_px; });
 }
 
-/// Of lines through two points each, the one that has most points near it.
+/// Of the lines through two points each, returns the one with the most points near it.
 RadialSides::Line RadialSides::line_of_most(const std::vector<SidePoint>& side) const {
   const double within_px = settings_.straight_within_px * sample_px_;
   const std::size_t half = side.size() / 2, step = std::max<std::size_t>(1, half / kTries);
@@ -106,8 +106,8 @@ RadialSides::Line RadialSides::line_of_most(const std::vector<SidePoint>& side) 
   return best;
 }
 
-/// The line through both points or, when that misses the centre by too much, the one through their middle that just
-/// does not.
+/// The line through both points. If it misses the centre by too much, returns the line through their midpoint that
+/// misses the centre by the greatest permitted distance.
 RadialSides::Line RadialSides::line_between(const SidePoint& a, const SidePoint& b) const {
   const double along_px = 0.5 * (a.along_px + b.along_px), aside_px = 0.5 * (a.aside_px + b.aside_px);
   const double reach_px = b.along_px - a.along_px, slope = reach_px > 0.0 ? (b.aside_px - a.aside_px) / reach_px : 0.0;
@@ -116,9 +116,10 @@ RadialSides::Line RadialSides::line_between(const SidePoint& a, const SidePoint&
   return {off_px, (aside_px - off_px) / along_px};
 }
 
-/* The line through the centre with the least squared lateral error, slope = sum(along aside) / sum(along^2). A side
- * that misses the centre crosses it at the radius sum(along^2) / sum(along). The variance of the slope is that of one
- * point about the side's own line over sum(along^2), and what displaces all points alike.
+/* The line through the centre with the least sum of squared lateral errors: slope = sum(along aside) / sum(along^2). A
+ * side that misses the centre crosses this line at the radius sum(along^2) / sum(along). The variance of the slope is
+ * that of one point about the side's own line over sum(along^2), plus the effect of the displacement common to all
+ * points.
  */
 RadialSides::Side RadialSides::least_squares(const std::vector<SidePoint>& side) const {
   double along = 0.0, aside = 0.0, along2 = 0.0, aside2 = 0.0, mixed = 0.0;

@@ -10,37 +10,39 @@
 
 namespace azimuth {
 
-/// An upright thing as its two sides show it. Angles from u towards v.
+/// The shape of an upright object, measured by its two sides. Angles run from u towards v.
 struct UprightShape {
-  double angle_rad = 0.0;  ///< of the line midway between the sides
-  double sigma_rad = 0.0;  ///< standard deviation of that, if the image's centre is where it is said to be
-  double radius_px = 0.0;  ///< where the angle holds if it is not
-  double length_px = 0.0;  ///< along the radius
-  double width_px = 0.0;   ///< across, halfway along
+  double angle_rad = 0.0;  ///< Angle of the line midway between the sides
+  double sigma_rad = 0.0;  ///< Standard deviation of `angle_rad`, given an exact image centre
+  double radius_px = 0.0;  ///< The radius at which `angle_rad` is right even if the image centre is slightly off
+  double length_px = 0.0;  ///< Along the radius
+  double width_px = 0.0;   ///< Across the radius, halfway along
 };
 
-/// Finds the two sides of an upright thing. The sides of anything upright are lines through the centre of an
-/// omnidirectional image, so each tells its direction by itself: parts of it that are hidden, or merged with something
-/// else, can be told from the rest and left out. The centre need not be known exactly: the lines may miss it a little.
+/// Finds the two sides of an upright object. In an omnidirectional image the sides of an upright object are lines
+/// through the centre, so each side tells its direction independently. Occluded parts of a side, and parts merged with
+/// another object, can therefore be recognised and left out. The centre may be known inexactly: the lines may miss it a
+/// little.
 ///
 /// Thread contract: thread-bound. Nothing allocates once storage has grown to the largest outline.
 class RadialSides {
  public:
   explicit RadialSides(const ColourSettings& settings) : settings_(settings) {}
 
-  /// Whether a point just outside of the outline could be background.
+  /// Whether a point just outside the outline can be background.
   using IsBackground = std::function<bool(const CentredPoint&)>;
 
-  /// From an outline, which is exact to `sample_px`, and the angle of a line near its middle. Nothing when it does not
-  /// have two free, straight sides.
+  /// `outline` is exact to `sample_px`; `near_rad` is the angle of a line near its middle. Returns nullopt unless the
+  /// outline has two free, straight sides.
   std::optional<UprightShape> find(std::span<const CentredPoint> outline, double near_rad, double sample_px,
                                    const IsBackground& is_background);
 
  private:
   struct SidePoint {
-    double along_px = 0.0, aside_px = 0.0;  ///< from the centre along the line; from the line, towards greater angles
+    /// along_px: distance from the centre along the line; aside_px: distance from the line, towards greater angles.
+    double along_px = 0.0, aside_px = 0.0;
   };
-  /// A line that may miss the centre: aside = offset + slope along.
+  /// A line that may miss the centre: aside = offset + slope * along.
   struct Line {
     double offset_px = 0.0;
     double slope = 0.0;
@@ -48,9 +50,9 @@ class RadialSides {
     double off_px(const SidePoint& point) const { return point.aside_px - offset_px - slope * point.along_px; }
   };
   struct Side {
-    double slope = 0.0;      ///< of the line through the centre
-    double variance = 0.0;   ///< of the slope
-    double radius_px = 0.0;  ///< where that line meets the side
+    double slope = 0.0;      ///< Slope of the line through the centre
+    double variance = 0.0;   ///< Variance of the slope
+    double radius_px = 0.0;  ///< The radius at which the line through the centre crosses the fitted side
   };
 
   bool measure_extent(std::span<const CentredPoint> outline);
@@ -66,7 +68,7 @@ class RadialSides {
   CentredPoint direction_ = CentredPoint::UnitX();
   double sample_px_ = 1.0;
   double nearest_px_ = 0.0, farthest_px_ = 0.0;
-  std::vector<SidePoint> left_, right_;  // the outermost point in each sample along the radius
+  std::vector<SidePoint> left_, right_;  // The outermost point for each sample along the radius
 };
 
 }  // namespace azimuth

@@ -1,6 +1,6 @@
 #pragma once
-// The loops of scan.hpp, included once for each instruction set they are compiled for. Everything here has internal
-// linkage and calls nothing of the standard library, so that no code for one processor can be linked into another's.
+// The loops of scan.hpp, included once for each instruction set that they are compiled for. All names here have
+// internal linkage, and no code calls the standard library, so the linker cannot merge code for different processors.
 
 #include "slam/perception/colour/scan.hpp"
 
@@ -13,7 +13,7 @@ namespace {
 
 using Byte = std::uint8_t;
 // NOLINTBEGIN(misc-definitions-in-headers): a copy for each instruction set is the point
-constexpr int kBlockBytes = AZIMUTH_BLOCK_BYTES;  // looked at together: one register
+constexpr int kBlockBytes = AZIMUTH_BLOCK_BYTES;  // Bytes processed together: one register.
 constexpr unsigned kTableBits = 6, kTableDropped = 2;
 // NOLINTEND(misc-definitions-in-headers)
 using Bytes = Byte __attribute__((vector_size(kBlockBytes)));
@@ -39,10 +39,10 @@ inline std::size_t cell(unsigned first, unsigned second, unsigned third) {
          third >> kTableDropped;
 }
 
-/// rgb8 and bgr8. Red: byte of the red sample.
+/// rgb8 and bgr8. Red: the byte index of the red sample.
 template <int Red>
 struct ThreeBytes {
-  static constexpr int kBlock = kBlockBytes / 3;  // pixels that a block of bytes holds whole
+  static constexpr int kBlock = kBlockBytes / 3;  // Whole pixels in a block of bytes
 
   const Byte* row;
   int row_bytes;
@@ -59,22 +59,22 @@ struct ThreeBytes {
     const Byte* const pixel = row + 3 * u;
     return classes[cell(pixel[Red], pixel[1], pixel[2 - Red])];
   }
-  /// Each sample against the next and the one after: the three differences of every pixel are among them, beside some
-  /// between neighbours, which cost time but change nothing.
+  /// Compares each sample with the next and the one after. The three differences of every pixel are among these.
+  /// Differences between neighbouring pixels occur too; they cost time but do not change the result.
   bool grey_block(int u) const {
     const Byte* const pixel = row + 3 * u;
     const Bytes here = load(pixel), next = load(pixel + 1), second_next = load(pixel + 2);
     const Bytes a = distance(here, next), b = distance(here, second_next);
     return !any_reaches(a > b ? a : b, least_chroma);
   }
-  /// The first column from `u` that may have a class.
+  /// The first column from `u` on that may have a class.
   int past_grey(int u, int end) const {
     while (u < end && 3 * u + kBlockBytes + 2 <= row_bytes && grey_block(u)) u += kBlock;
     return u;
   }
 };
 
-/// yuyv and uyvy. Luma: byte of the first luma.
+/// yuyv and uyvy. Luma: the byte index of the first luma sample.
 template <int Luma>
 struct TwoBytes {
   static constexpr int kBlock = kBlockBytes / 2;
@@ -100,13 +100,13 @@ struct TwoBytes {
     return !any_reaches(distance(load(row + 2 * u), neutral) & luma_out, least_chroma);
   }
   int past_grey(int u, int end) const {
-    int even = u - u % 2;  // chroma comes in pairs
+    int even = u - u % 2;  // A chroma pair covers two columns
     while (even < end && 2 * even + kBlockBytes <= row_bytes && grey_block(even)) even += kBlock;
     return even > u ? even : u;
   }
 };
 
-/// nv12: rows of luma, and below them one row of chroma for two of luma, a byte of U or V for each column.
+/// nv12: rows of luma, followed by one row of chroma for every two rows of luma; chroma has one byte (U or V) a column.
 struct TwoPlanes {
   static constexpr int kBlock = kBlockBytes;
 
@@ -128,16 +128,16 @@ struct TwoPlanes {
   }
   bool grey_block(int u) const { return !any_reaches(distance(load(chroma + u), Bytes{} + 128), least_chroma); }
   int past_grey(int u, int end) const {
-    int even = u - u % 2;  // chroma comes in pairs
+    int even = u - u % 2;  // A chroma pair covers two columns
     while (even < end && even + kBlockBytes <= width && grey_block(even)) even += kBlock;
     return even > u ? even : u;
   }
 };
 
-/// Cells of 2 x 2 samples. RedRow, RedColumn: the place of the red one.
+/// Bayer cells of 2 x 2 samples. RedRow, RedColumn: the position of the red sample in the cell.
 template <int RedRow, int RedColumn>
 struct BayerCells {
-  static constexpr int kBlock = 1 << 15;  // one class a cell costs a quarter: nothing is passed over
+  static constexpr int kBlock = 1 << 15;  // One class a cell costs only a quarter, so no block is skipped
 
   const Byte *red_row, *blue_row;
   const Byte* classes;
@@ -156,7 +156,7 @@ struct BayerCells {
   static int past_grey(int u, int) { return u; }
 };
 
-/// Runs as they are written.
+/// Writes runs as long as there is room, and counts them.
 struct RunWriter {
   ColourRun* runs;
   std::size_t room;

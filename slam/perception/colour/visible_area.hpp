@@ -9,18 +9,18 @@
 
 namespace azimuth {
 
-/// What of an image is looked at, in samples of `pixels_per_sample` pixels along a side.
+/// The visible part of an image, in samples of `pixels_per_sample` pixels along a side.
 ///
 /// Thread contract: reentrant.
 class VisibleArea {
  public:
-  /// A sample is visible when all of its pixels are.
+  /// A sample is visible if all of its pixels are visible.
   VisibleArea(const ImageMask& mask, int width_px, int height_px, int pixels_per_sample);
 
-  /// By rows from above, then from left to right.
+  /// Sorted by row from above, then from left to right.
   std::span<const VisibleSpan> spans() const { return spans_; }
 
-  /// Whether a sample shows the world; false outside of the image.
+  /// Whether a sample shows the world; false outside the image.
   bool contains(int column, int row) const {
     if (column < 0 || row < 0 || column >= width_ || row >= height_) return false;
     return visible_[as_size(row) * as_size(width_) + as_size(column)] != 0;

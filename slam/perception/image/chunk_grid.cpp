@@ -11,7 +11,7 @@ namespace {
 
 bool is_bayer(PixelFormat pixels) { return pixels >= PixelFormat::bayer_rggb8 && pixels <= PixelFormat::bayer_bggr8; }
 
-/// Sums of absolute differences of chunks of so many bytes: a few instructions each, since the compiler knows how many.
+/// Sums of absolute differences over chunks of `Bytes` bytes. The constant size lets the compiler vectorise the loop.
 template <int Bytes>
 void differences(const std::uint8_t* a, const std::uint8_t* b, std::ptrdiff_t spacing, std::span<float> sums) {
   for (float& out : sums) {

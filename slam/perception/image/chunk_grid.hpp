@@ -10,8 +10,8 @@
 
 namespace azimuth {
 
-/// Chunks of a few pixels side by side in the rows of an image, evenly spread over its width, and how much they change
-/// from row to row.
+/// Chunks of a few adjacent pixels in the rows of an image, evenly spread over its width, and their changes from row to
+/// row.
 ///
 /// Thread contract: reentrant. Nothing allocates after construction.
 class ChunkGrid {
@@ -19,29 +19,30 @@ class ChunkGrid {
   static constexpr int kChunk_px = 16;
   static constexpr int kMostChunks = 64;
 
-  /// Chunks side by side that show the world in a row, in two before it and in the one after.
+  /// Adjacent chunks that show the world in the row itself, in the two compared rows before it and in the one after it.
   struct Run {
     int row, first, end;
   };
 
   ChunkGrid() = default;
-  /// At most `most_chunks` in a row. `visible` is the mask's raster.
+  /// At most `most_chunks` chunks in a row. `visible` is the raster of the mask.
   ChunkGrid(std::span<const std::uint8_t> visible, const FrameFormat& format, int most_chunks);
 
-  /// Rows from one to the next of the same colours.
+  /// Distance from one row to the next row of the same colours: 2 for Bayer formats, else 1.
   int apart() const { return apart_; }
   int chunks() const { return chunks_; }
-  /// By row.
+  /// Sorted by row.
   std::span<const Run> runs() const { return runs_; }
   std::span<const Run> runs(int row) const;
-  /// The last row in which a chunk shows the world; -1: none.
+  /// The last row in which a chunk shows the world; -1 if there is none.
   int lowest(int chunk) const { return lowest_[as_size(chunk)]; }
 
-  /// What a chunk's bytes differ by from those of the same colours in the row before, summed: for chunks `first` on.
+  /// Sums, for each chunk from `first` on, the absolute differences of its bytes from those in the previous row of the
+  /// same colours.
   void steps(const ImageView& image, int row, int first, std::span<float> out) const;
-  /// The same with its sign: brighter less darker.
+  /// The signed sum for one chunk: positive if the row is brighter than the previous one.
   int rise(const ImageView& image, int row, int chunk) const;
-  /// What a step of `levels` grey levels in every byte comes to.
+  /// The sum that a step of `levels` grey levels in every byte gives.
   float step_of(int levels) const { return static_cast<float>(levels * kChunk_px * bytes_per_pixel_); }
 
  private:

@@ -25,7 +25,8 @@ void every_second(const std::uint8_t* from, int count, std::uint8_t* out) {
   for (int i = 0; i < count; ++i) out[i] = from[2 * i];
 }
 
-/// The index mirrored at the edge, so that it keeps its colour; a single row or column is its own neighbour.
+/// Mirrors an index outside the image at its edge, which keeps the Bayer colour. A single row or column is its own
+/// neighbour.
 int inside(int index, int size) {
   if (index < 0) return std::min(1, size - 1);
   return index < size ? index : std::max(0, size - 2);
@@ -56,7 +57,7 @@ void gray_row(const ImageView& image, int row, int first, int last, std::uint8_t
   const int count = last - first;
   switch (image.format.pixels) {
     case PixelFormat::gray8:
-    case PixelFormat::nv12:  // its luma has a plane of its own
+    case PixelFormat::nv12:  // The luma of nv12 has a plane of its own
       std::memcpy(out, from, as_size(count));
       break;
     case PixelFormat::yuyv:

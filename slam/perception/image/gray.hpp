@@ -5,11 +5,11 @@
 
 namespace azimuth {
 
-/// Columns `first` to `last` (not included) of one row in grey. Red, green and blue are weighted as luma is (BT.601); a
-/// Bayer pixel takes the mean of its 3 x 3 surroundings with binomial weights, which holds as much of each colour
-/// wherever it is: (R + 2 G + B) / 4.
+/// Converts columns [first, last) of one row to grey. Red, green and blue have the weights of luma (BT.601). A Bayer
+/// pixel gets the mean of its 3 x 3 neighbourhood with binomial weights, which gives (R + 2 G + B) / 4 at every
+/// position in the Bayer cell.
 ///
-/// Only readable() images and columns and rows inside them. Writes last - first values.
+/// The image must be readable(), and the columns and the row inside it. Writes last - first values.
 ///
 /// Thread contract: reentrant. Nothing allocates.
 void gray_row(const ImageView& image, int row, int first, int last, std::uint8_t* out);

@@ -16,13 +16,13 @@ namespace {
 
 constexpr int kSampleWidth = SampleLattice::kSampleWidth_px;
 
-/// Multiplying by an odd number loses nothing, so that a change anywhere always shows.
+/// Multiplication by an odd number is invertible, so any single changed word changes the digest.
 std::uint64_t mixed(std::uint64_t digest, std::uint64_t word) {
   constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15U;
   return std::rotl((digest ^ word) * kOdd, 29);
 }
 
-/// Eight bytes a step.
+/// Processes eight bytes a step.
 std::uint64_t digest_of(const std::uint8_t* bytes, std::size_t count) {
   std::uint64_t digest = 0;
   for (std::size_t i = 0; i < count; i += sizeof digest) {
@@ -75,7 +75,7 @@ std::uint64_t ImageWatch::read(const ImageView& image) {
   return digest;
 }
 
-/// Changes all along, as far as the samples see: by noise, or by what there is to see.
+/// Whether enough neighbouring samples of the row differ, because of noise or of the scene.
 bool ImageWatch::says_something(const SampleLattice::Row& row) const {
   constexpr std::size_t kOneIn = 4;
   std::size_t changes = 0;
@@ -112,7 +112,7 @@ void ImageWatch::remember(std::uint64_t digest) {
 ImageTrouble ImageWatch::trouble(const Counts& counts) const {
   const auto samples = static_cast<double>(samples_.size());
   const auto share = [samples](std::size_t part) { return static_cast<double>(part) / samples; };
-  if (samples_.empty()) return ImageTrouble::none;  // nothing visible: the mask's fault, not the image's
+  if (samples_.empty()) return ImageTrouble::none;  // Nothing is visible: the mask is wrong, not the image.
   if (share(counts.bright) < settings_.bright_share) return ImageTrouble::dark;
   if (share(counts.white) > settings_.white_share) return ImageTrouble::overexposed;
   if (share(counts.edges) < settings_.edge_share) return ImageTrouble::featureless;

@@ -12,40 +12,40 @@
 
 namespace azimuth {
 
-/// What an image must not be to be of use. Brightness in 8-bit steps, 0 to 255; shares of the visible samples. They are
-/// absolute on purpose: half the light is no trouble as long as something can be seen in it.
+/// Limits outside which an image is unusable. Brightness is in 8-bit steps, 0 to 255; shares are of the visible
+/// samples. The limits are absolute on purpose: a dim image is usable as long as something can be seen in it.
 struct ImageWatchSettings {
-  int dark_below = 24;         ///< this and less is black
-  double bright_share = 2e-3;  ///< fewer samples than these brighter than black: dark. A few lamps are enough
+  int dark_below = 24;         ///< This brightness and less counts as black
+  double bright_share = 2e-3;  ///< Dark: fewer samples than this share are brighter than black. A few lamps are enough.
   int white_from = 250;
-  double white_share = 0.5;  ///< more samples than these white: overexposed
-  int contrast_above = 10;   ///< neighbouring samples that differ by more show an edge; noise does not
-  double edge_share = 2e-3;  ///< fewer samples than these with an edge: featureless
-  int frozen_repeats = 1;    ///< as often the same image again: frozen. Bearings of another instant do harm
-  double seam_by = 0.5;      ///< a row that is more of a seam than any other, by so much: torn. See RowSeams
+  double white_share = 0.5;  ///< Overexposed: more samples than this share are white.
+  int contrast_above = 10;   ///< Neighbouring samples that differ by more show an edge; noise stays below.
+  double edge_share = 2e-3;  ///< Featureless: fewer samples than this share show an edge.
+  int frozen_repeats = 1;    ///< Frozen: the same image this many times again. Bearings of another instant do harm.
+  /// Torn: a row exceeds every other row by this much in its likeness to a seam. See RowSeams.
+  double seam_by = 0.5;
 };
 
-/// Judges images one after the other by a few thousand samples of what the rig's mask leaves visible.
+/// Judges consecutive images by a few thousand samples of the area that the rig's mask leaves visible.
 ///
-/// `frozen` says that the image is the same to the last bit for the frozen_repeats-th time. It holds nothing that the
-/// first of them did not, so dropping it loses nothing, also when the camera is fine: a simulated one without noise on
-/// a robot that stands. Whether it means trouble only shows when the robot has moved meanwhile, which is not known
-/// here.
+/// `frozen` means that the image is identical to the last bit for the frozen_repeats-th time. Such an image has no new
+/// information, so dropping it loses nothing even if the camera is fine, for example a simulated camera without noise
+/// on a standing robot. A frozen image means camera trouble only if the robot has moved meanwhile, which this class
+/// does not know.
 ///
-/// `torn` says that rows of two instants meet in the image, or that its lower part was filled up for want of more.
-/// Where both instants look alike, or show nothing where they meet, that may pass unnoticed, unless the older of them
-/// was seen as it was.
-///
+/// `torn` means that rows of two instants meet in the image, or that its lower part was filled because data were
+/// missing. A seam may stay undetected if both instants look alike or show nothing where they meet, unless the older
+/// one was seen earlier as an image of its own.
 /// Thread contract: thread-bound. Nothing allocates once an image of the largest size was seen.
 class ImageWatch {
  public:
   explicit ImageWatch(const ImageRig& rig, const ImageWatchSettings& settings = {}) : rig_(rig), settings_(settings) {}
 
-  /// The worst that is wrong with the next image. `unreadable`: no readable() image, or not of the rig's size when the
-  /// rig says one. Any bytes are safe.
+  /// Returns the worst trouble of the next image. `unreadable`: the image is not readable(), or the rig gives another
+  /// image size. Any bytes are safe.
   ImageTrouble judge(const ImageView& image);
 
-  /// How many images in a row before the last readable one were the same.
+  /// How often in a row the last readable image repeated its predecessor.
   int repeats() const { return repeats_; }
 
  private:
@@ -54,7 +54,7 @@ class ImageWatch {
   };
 
   void fit(const FrameFormat& format);
-  /// Reads all samples, and the digests of the rows they are in; the digest of these.
+  /// Reads all samples and the digests of their rows, and returns the digest of all these rows.
   std::uint64_t read(const ImageView& image);
   bool says_something(const SampleLattice::Row& row) const;
   Counts count() const;
@@ -65,12 +65,12 @@ class ImageWatch {
   ImageRig rig_;
   ImageWatchSettings settings_;
   SampleLattice lattice_;
-  FrameFormat format_;  // that the lattice and the seams are for
+  FrameFormat format_;  // The format for which the lattice and the seams are prepared
   RowSeams seams_;
   RowHistory history_;
   std::vector<std::uint8_t> row_;
-  std::vector<int> samples_;             // sums over the pixels of each
-  std::optional<std::uint64_t> digest_;  // of the last readable image
+  std::vector<int> samples_;             // Of each sample: the sum over its pixels.
+  std::optional<std::uint64_t> digest_;  // Of the last readable image
   int repeats_ = 0;
 };
 

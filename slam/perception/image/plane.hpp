@@ -8,10 +8,10 @@
 
 namespace azimuth {
 
-/// Samples row by row. Rows start at addresses that suit vector instructions and may be read, and written as scratch,
-/// up to kPadding samples beyond their end.
+/// Samples stored row by row. Rows are aligned for vector instructions. Each row may be read, and written as scratch,
+/// up to kPadding samples beyond its end.
 ///
-/// Storage grows to the largest size asked for and stays. Thread contract: thread-bound.
+/// Storage grows to the largest requested size and is kept. Thread contract: thread-bound.
 template <class T>
 class Plane {
  public:
@@ -20,7 +20,7 @@ class Plane {
   Plane() = default;
   Plane(int width, int height) { resize(width, height); }
 
-  /// What the samples are afterwards is not defined.
+  /// The values of the samples are undefined afterwards.
   void resize(int width, int height) {
     assert(width >= 0 && height >= 0);
     width_ = width;
@@ -35,7 +35,7 @@ class Plane {
 
   int width() const { return width_; }
   int height() const { return height_; }
-  int stride() const { return stride_; }  ///< samples from row to row
+  int stride() const { return stride_; }  ///< Samples from one row to the next
   T* row(int v) { return samples_.get() + offset(v); }
   const T* row(int v) const { return samples_.get() + offset(v); }
   T& at(int u, int v) { return row(v)[u]; }

@@ -1,6 +1,6 @@
 #pragma once
-// The loop of resample_kernels.hpp, included once for each instruction set it is compiled for. Internal linkage and
-// nothing of the standard library, so that no code for one processor can be linked into another's.
+// The loop of resample_kernels.hpp, included once for each instruction set that it is compiled for. All names have
+// internal linkage, and no code calls the standard library, so the linker cannot merge code for different processors.
 
 #include "slam/perception/image/resample_kernels.hpp"
 

@@ -5,11 +5,11 @@
 namespace azimuth {
 namespace {
 
-constexpr int kFewestRows = 3;             // of either part
-constexpr double kShareThatSpeaks = 0.75;  // of all rows: where fewer do, it is no camera's image
+constexpr int kFewestRows = 3;             // Of either part
+constexpr double kShareThatSpeaks = 0.75;  // Share of all rows that must have noise; a camera image has more.
 
-/// Whether rows are the same in `a` and `b` from the first one on and then no more, or the other way round; rows that
-/// say nothing are left out.
+/// Whether the rows of two images are equal up to some row and different after it, or the reverse. Rows without noise
+/// are not added.
 class Parts {
  public:
   void add(bool same) {

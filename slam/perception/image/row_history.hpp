@@ -6,30 +6,31 @@
 
 namespace azimuth {
 
-/// Knows rows of an image again that belong to one of those before it: what a camera's buffer still held when only a
-/// part of it was written anew.
+/// Recognises rows that belong to an earlier image: a camera's buffer still holds them if only a part of it was
+/// rewritten.
 ///
-/// A sensor's noise makes every row differ from what it was before. So rows that are equal to the last bit, all those
-/// below some row or all those above it, while all others are not, are the other image's. Rows without noise say
-/// nothing, nor do those that several older images have: both are painted. Most rows must say something.
+/// Sensor noise makes every row differ from the same row of other images. An image is torn if its rows below some row
+/// (or above it) equal those of an earlier image to the last bit while all other rows differ. Rows without noise are
+/// ignored, as are rows that several earlier images share: both are synthetic. Most rows must carry noise for a
+/// verdict.
 ///
 /// Thread contract: thread-bound. Nothing allocates after construction.
 class RowHistory {
  public:
-  /// What a row showed; kNothing: no noise.
+  /// Digest of a row's pixels; kNothing for a row without noise.
   using Digest = std::uint64_t;
   static constexpr Digest kNothing = 0;
 
   RowHistory() = default;
   explicit RowHistory(std::size_t rows);
 
-  std::vector<Digest>& newest() { return images_[newest_]; }  ///< to be filled, from top to bottom
+  std::vector<Digest>& newest() { return images_[newest_]; }  ///< To be filled from top to bottom
 
-  /// Whether the newest image has rows of an older one. It is remembered then.
+  /// Adds the newest image to the history. Returns whether it has rows of an earlier image.
   bool add();
 
  private:
-  static constexpr std::size_t kImages = 8;  // cameras have four buffers or so
+  static constexpr std::size_t kImages = 8;  // Cameras typically have about four buffers
   using Rows = std::vector<Digest>;
 
   bool has_rows_of(std::size_t before) const;

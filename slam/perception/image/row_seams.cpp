@@ -12,11 +12,13 @@ namespace azimuth {
 namespace {
 
 constexpr int kCoarseChunks = 16;
-constexpr int kNoise = 8;             // steps of less say little [grey levels]
-constexpr int kFewestChunks = 4;      // fewer are no whole row
-constexpr float kRatioOne = 4096.0F;  // ratios are whole numbers, so that their sum does not depend on its order
-constexpr float kMostOneWay = 0.7F;   // of all change, brighter less darker: beyond that it is an edge or a flicker
-constexpr int kUnit_rows = 16;        // what JPEG codes at once, and loses at once
+constexpr int kNoise = 8;         // Smaller steps are not significant [grey levels]
+constexpr int kFewestChunks = 4;  // Fewer chunks do not represent a row
+// Ratios are integers, so that their sum does not depend on the order of summation
+constexpr float kRatioOne = 4096.0F;
+// Greatest net change as a share of all change; a greater one is an edge or flicker.
+constexpr float kMostOneWay = 0.7F;
+constexpr int kUnit_rows = 16;  // JPEG encodes, and loses, this many rows together
 constexpr int kFewestFilled_rows = 8;
 
 constexpr std::size_t kLanes = 4;
@@ -49,8 +51,8 @@ void RowSeams::measure(const ImageView& image, const ChunkGrid& grid, int row) {
   grid.steps(image, row, 0, std::span(kept(row)).first(as_size(grid.chunks())));
 }
 
-/// Each chunk's step with the larger of those before and after it, from -1 to 1; the sum over the square root of their
-/// number, by which chance would have it grow.
+/// Compares each chunk's step with the larger of the steps before and after it, which gives a ratio from -1 to 1. The
+/// sum is divided by the square root of the number of chunks, with which a random sum grows.
 double RowSeams::likeness(const ChunkGrid& grid, std::span<const ChunkGrid::Run> runs) {
   const int row = runs.front().row;
   const Steps &before = kept(row - grid.apart()), &here = kept(row), &after = kept(row + grid.apart());
@@ -85,7 +87,7 @@ void RowSeams::look_here_and_there(const ImageView& image) {
   }
 }
 
-/// The most suspicious rows are kept, the least of them last.
+/// Keeps the most suspicious rows, in descending order.
 void RowSeams::suspect(int row, double likeness) {
   if (likeness <= suspects_.back().likeness) return;
   suspects_.back() = {row, likeness};
@@ -100,7 +102,7 @@ Seam RowSeams::look_all_along(const ImageView& image) {
     suspect.likeness = likeness(fine_, fine_.runs(suspect.row));
   }
   const Suspect& best = *std::ranges::max_element(suspects_, {}, &Suspect::likeness);
-  double second = 0.0;  // a seam shows in as many rows as lie between those of the same colours
+  double second = 0.0;  // Rows closer than `apart()` show the same seam
   for (const Suspect& other : suspects_)
     if (&other != &best && std::abs(other.row - best.row) >= fine_.apart()) second = std::max(second, other.likeness);
   return {best.row, best.likeness - second};
@@ -120,7 +122,7 @@ bool RowSeams::goes_both_ways(const ImageView& image, int row) const {
 }
 
 int RowSeams::filled_from(const ImageView& image) {
-  int first = -1;  // the last step anywhere
+  int first = -1;  // The last row with a step in any chunk
   for (int c = 0; c < coarse_.chunks(); ++c) {
     int v = coarse_.lowest(c);
     for (float step = 0.0F; v >= coarse_.apart(); --v) {

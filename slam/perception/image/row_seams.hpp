@@ -9,22 +9,22 @@
 
 namespace azimuth {
 
-/// The row of an image that looks most like torn.
+/// The row of an image that looks most like a tear.
 struct Seam {
-  int row = -1;             ///< the first of the lower part; -1: there is none
-  double stands_out = 0.0;  ///< by how much it is more of a seam than any other row is
+  int row = -1;             ///< The first row of the lower part; -1 if there is none.
+  double stands_out = 0.0;  ///< Likeness of this row to a seam, minus that of the next most likely row
 };
 
-/// Looks for the row at which an image was put together from two instants, or from which on it was filled up for want
-/// of more.
+/// Finds the row at which an image joins two instants, or from which on it was filled because data were missing.
 ///
-/// From row to row of a scene brightness changes about as much as it did from the row before and will to the row after:
-/// optics blur what they show. Where two instants meet it changes more, along the whole row, upwards as often as
-/// downwards, and at this row alone. So the step to a row is compared with those before and after it, in chunks of a
-/// few pixels, and what comes of that with other rows of the same image: noise, compression in blocks and fine patterns
-/// raise them all alike. Every row is looked at here and there, the most suspicious ones all along.
+/// In an image of one instant, brightness changes from row to row about as much as between the adjacent pairs of rows,
+/// since the optics blur the scene. Where two instants meet, brightness changes more, along the whole row, upwards as
+/// often as downwards, and at this row only. The step to a row is therefore compared with the steps before and after
+/// it, in chunks of a few pixels, and the result with the results of the other rows of the image: noise, block
+/// compression and fine patterns raise the results of all rows alike. Every row is tested at a few chunks, and the most
+/// suspicious rows at all chunks.
 ///
-/// A part that was filled up has one value or repeats one row, to the last bit and to the image's lower end.
+/// A filled part has one value or repeats one row, to the last bit, down to the image's lower end.
 ///
 /// Thread contract: thread-bound. Nothing allocates after construction.
 class RowSeams {
@@ -32,16 +32,17 @@ class RowSeams {
   RowSeams() = default;
   RowSeams(const ImageMask& mask, const FrameFormat& format);
 
-  /// `image` must be readable() and of the pixels and size given to the constructor.
+  /// `image` must be readable() and have the pixel format and size given to the constructor.
   Seam seam(const ImageView& image);
-  /// The first row of what was filled up; -1: nothing was.
+  /// The first row of the filled part; -1 if there is none.
   int filled_from(const ImageView& image);
 
  private:
-  static constexpr int kRowsKept = 5;  // a step, those before and after it, and for Bayer those between
+  // The compared row and the rows before and after it; for Bayer formats, also the rows between these.
+  static constexpr int kRowsKept = 5;
   struct Suspect {
     int row = -1;
-    double likeness = 0.0;  // to a seam
+    double likeness = 0.0;  // To a seam
   };
   using Steps = std::array<float, ChunkGrid::kMostChunks>;
   using Ratios = std::array<std::int32_t, ChunkGrid::kMostChunks>;
@@ -57,7 +58,7 @@ class RowSeams {
   ChunkGrid coarse_, fine_;
   std::array<Steps, kRowsKept> steps_{};
   std::array<Suspect, 8> suspects_{};
-  std::vector<int> last_step_;  // the row of each column of chunks
+  std::vector<int> last_step_;  // Of each column of chunks: the row of its last step.
 };
 
 }  // namespace azimuth

@@ -12,7 +12,7 @@ bool visible(const ImageMask& mask, int u, int v) {
   return mask.visible({u, v}) && mask.visible({u + SampleLattice::kSampleWidth_px - 1, v});
 }
 
-/// From sample to sample, so that there are about kMostSamples if the whole image is visible.
+/// Distance between samples that gives about kMostSamples if the whole image is visible.
 int spacing_px(int width_px, int height_px) {
   const double area_px = static_cast<double>(width_px) * height_px;
   return std::max(SampleLattice::kSampleWidth_px,

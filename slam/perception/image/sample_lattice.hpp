@@ -6,24 +6,24 @@
 
 namespace azimuth {
 
-/// Evenly spread samples of the visible part of an image, each a few pixels side by side in one row: what is enough to
-/// judge an image as a whole.
+/// Evenly spread samples of the visible part of an image, each a few adjacent pixels in one row. They suffice to judge
+/// an image as a whole.
 ///
 /// Thread contract: reentrant.
 class SampleLattice {
  public:
-  static constexpr int kSampleWidth_px = 4;   ///< averages the sensor's noise to half
-  static constexpr int kMostSamples = 16384;  ///< about
+  static constexpr int kSampleWidth_px = 4;   ///< Averaging halves the standard deviation of the sensor's noise
+  static constexpr int kMostSamples = 16384;  ///< Approximate
 
   struct Sample {
-    int u = 0;              ///< its first pixel
-    std::size_t left = 0;   ///< index of the sample beside it; its own index: there is none
-    std::size_t above = 0;  ///< likewise
+    int u = 0;              ///< The sample's first pixel
+    std::size_t left = 0;   ///< Index of the sample to the left; its own index if there is none.
+    std::size_t above = 0;  ///< Index of the sample above; its own index if there is none.
   };
   struct Row {
     int v = 0;
-    int first_u = 0, end_u = 0;      ///< the pixels that hold all samples of the row
-    std::size_t begin = 0, end = 0;  ///< its samples
+    int first_u = 0, end_u = 0;      ///< The pixel columns that hold all samples of the row
+    std::size_t begin = 0, end = 0;  ///< Indices of the row's samples
   };
 
   SampleLattice() = default;

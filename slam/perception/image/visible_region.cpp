@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::int32_t kNothing = -1;
 
-/// For each pixel of a square, the nearest one of a set, found in two sweeps over its rows: what is nearest to a pixel
-/// is nearest to one of its neighbours (Danielsson), but for errors far below a pixel.
+/// For each pixel of a square, the nearest pixel of a set, found by Danielsson's method in two sweeps over the rows:
+/// the member nearest to a pixel is also nearest to one of its neighbours, up to errors far below a pixel.
 class NearestMap {
  public:
   NearestMap(int side, const std::vector<bool>& members) : side_(side), nearest_(members.size(), kNothing) {
@@ -23,7 +23,7 @@ class NearestMap {
     for (int y = side - 1; y >= 0; --y) sweep_row(y, 1);
   }
 
-  /// Index of the nearest member; kNothing: there is none.
+  /// Index of the nearest member; kNothing if the set is empty.
   std::int32_t at(int x, int y) const { return nearest_[index(x, y)]; }
   float distance(int x, int y) const {
     const std::int32_t member = at(x, y);
@@ -52,7 +52,8 @@ class NearestMap {
   std::vector<std::int32_t> nearest_;
 };
 
-/// A pixel of the square mixes all up to its neighbours: it is visible when they are.
+/// A pixel of the square mixes camera pixels up to its neighbours' centres, so it is visible only if its neighbours
+/// are.
 bool all_visible(const WorkingSquare& square, const ImageMask& mask, int width_px, int height_px, int x, int y) {
   const auto visible = [&](const Pixel& pixel) {
     return pixel.x() >= 0.0 && pixel.y() >= 0.0 && pixel.x() <= width_px - 1 && pixel.y() <= height_px - 1 &&

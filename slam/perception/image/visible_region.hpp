@@ -9,20 +9,21 @@
 
 namespace azimuth {
 
-/// Which part of a working square shows the world.
+/// The part of a working square that shows the world.
 ///
 /// Thread contract: reentrant; fill() may run for different images at once. Nothing allocates after construction.
 class VisibleRegion {
  public:
   VisibleRegion(const WorkingSquare& square, const MaskShape& mask, int width_px, int height_px);
 
-  /// How far the pixel nearest to (x, y) is from the nearest hidden one, edges of the square included [px]; 0: hidden.
+  /// Distance of the pixel nearest to (x, y) from the nearest hidden pixel or edge of the square [px]; 0 if it is
+  /// hidden.
   float clearance_px(float x, float y) const;
 
-  /// Gives every hidden pixel the value of the visible one nearest to it, so that what is hidden makes no edge.
+  /// Gives every hidden pixel the value of the nearest visible pixel, so that the hidden area makes no edge.
   void fill(Plane<std::uint16_t>& image) const;
 
-  /// Columns [first, last) of a row that hold all its visible pixels.
+  /// The columns [first, last) of a row that hold all its visible pixels.
   struct Span {
     int first = 0;
     int last = 0;

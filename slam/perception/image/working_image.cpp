@@ -11,9 +11,9 @@
 namespace azimuth {
 namespace {
 
-constexpr int kOne = 256;  // sum of the weights of an output pixel
+constexpr int kOne = 256;  // Sum of the weights of an output pixel
 
-/// Weights of a triangle as wide as two steps (of at least a pixel) about `middle`, on the pixels inside.
+/// Triangular weights of half-width `reach` about `middle`, folded onto the pixels inside the image.
 void triangle(double middle, double reach, int inputs, int& first, std::vector<double>& weights) {
   first = static_cast<int>(std::floor(middle - reach)) + 1;
   const int last = static_cast<int>(std::ceil(middle + reach)) - 1;
@@ -27,7 +27,7 @@ void triangle(double middle, double reach, int inputs, int& first, std::vector<d
   first = low;
 }
 
-/// Whole numbers in proportion to `weights` that add up to kOne exactly.
+/// Appends integers in proportion to `weights` that add up to kOne exactly.
 void append_whole(const std::vector<double>& weights, std::vector<std::uint16_t>& out) {
   double total = 0.0, so_far = 0.0;
   for (const double weight : weights) total += weight;

@@ -8,50 +8,51 @@
 
 namespace azimuth {
 
-/// The square that front ends work on: the disc of `radius_px` about the optical axis, its centre in the middle, pixels
-/// as wide as high. Small images are never enlarged.
+/// The square image that front ends process: the disc of `radius_px` about the optical axis, centred in the square,
+/// with square pixels. Small images are never enlarged.
 struct WorkingSquare {
-  ImageAxes axes;          ///< of the camera's image
-  double radius_px = 0.0;  ///< of the disc in the camera's image
-  int side_px = 0;         ///< of the square; 0: as many as the disc has
-  double scale = 1.0;      ///< pixels of the square for one of the camera's, at most 1
+  ImageAxes axes;          ///< Axes of the camera's image
+  double radius_px = 0.0;  ///< Radius of the disc in the camera's image
+  int side_px = 0;         ///< Side of the square
+  double scale = 1.0;      ///< Pixels of the square per pixel of the camera's image, at most 1
 
   double middle_px() const { return 0.5 * (side_px - 1); }
-  /// A point of the square in the camera's image.
+  /// Maps a point of the square to the camera's image.
   Pixel camera_pixel(double x_px, double y_px) const {
     const double u = axes.centre_px.x() + (x_px - middle_px()) / scale;
     return {u, axes.beta * (axes.centre_px.y() + (y_px - middle_px()) / scale)};
   }
 };
 
-/// A square with sides of at most `most_px` (0: any) for a disc of `radius_px` > 0.
+/// Makes a square with sides of at most `most_px` (0: unlimited) for a disc of `radius_px` > 0.
 WorkingSquare working_square(const ImageAxes& axes, double radius_px, int most_px);
 
-/// Makes the square from camera images of one size: grey, each pixel the mean of those it covers, with weights that
-/// fall off linearly, so that what is finer than the square can show does not alias. Beyond the camera's image its edge
-/// goes on.
+/// Makes the working square from camera images of one size. Each grey pixel is the mean of the pixels that it covers,
+/// with weights that fall off linearly, which avoids aliasing of detail finer than the square can show. Beyond the
+/// camera's image, its edge pixels are repeated.
 ///
 /// Thread contract: thread-bound. Nothing allocates after construction.
 class WorkingImage {
  public:
   WorkingImage(const WorkingSquare& square, int width_px, int height_px);
 
-  /// `image` must be readable() and of the size given to the constructor. Values are in 1/256 of a grey level.
+  /// `image` must be readable() and have the size given to the constructor. Output values are in 1/256 of a grey level.
   void make(const ImageView& image, Plane<std::uint16_t>& out);
 
   int width_px() const { return width_px_; }
   int height_px() const { return height_px_; }
 
  private:
-  /// What pixels along one axis of the camera's image an output pixel is made of: weights from `first` on.
+  /// The input pixels along one axis that contribute to one output pixel: `count` pixels from `first` on.
   struct Taps {
     int first = 0;
     int count = 0;
-    std::size_t weights = 0;  ///< index of the first
+    std::size_t weights = 0;  ///< Index of the first weight
   };
   struct Axis {
-    std::vector<Taps> taps;              ///< one for each output pixel, first pixels ascending
-    std::vector<std::uint16_t> weights;  ///< those of one output pixel add up to 256
+    /// One entry for each output pixel, in ascending order of the first input pixel
+    std::vector<Taps> taps;
+    std::vector<std::uint16_t> weights;  ///< The weights of one output pixel add up to 256
   };
   static Axis axis(double first_px, double step_px, int outputs, int inputs);
 
@@ -60,8 +61,9 @@ class WorkingImage {
 
   int width_px_, height_px_;
   Axis columns_, rows_;
-  int first_column_, last_column_;               ///< of the camera's image that are needed
-  std::vector<std::vector<std::uint8_t>> kept_;  ///< grey rows by row modulo their number
+  int first_column_, last_column_;  ///< The columns [first, last) of the camera's image that are needed
+  /// Ring of converted grey rows, indexed by row modulo the ring's size
+  std::vector<std::vector<std::uint8_t>> kept_;
   std::vector<int> kept_row_;
   std::vector<std::uint16_t> sums_;
 };

@@ -4,17 +4,18 @@
 
 namespace azimuth {
 
-/// Pixels side by side in one row.
+/// Adjacent pixels of one row.
 struct PixelRun {
   std::int32_t row = 0;
   std::int32_t first = 0;
-  std::int32_t last = 0;  ///< the one behind
+  std::int32_t last = 0;  ///< One past the last pixel
 };
 
-/// Finds what shines in columns [first, last) of a row: maximal runs of pixels of `level` (at least 1) or more, from
-/// left to right. Writes at most `room` of them and gives how many; `room` means that there may be more.
+/// Finds the bright pixels in columns [first, last) of a row: maximal runs of pixels of at least `level` (`level` >=
+/// 1), from left to right. Writes at most `room` runs and returns their number; the return value `room` means that
+/// there may be more.
 ///
-/// The same on every processor. Thread contract: reentrant. Nothing allocates.
+/// The result is the same on every processor. Thread contract: reentrant. Nothing allocates.
 std::size_t bright_runs(const std::uint8_t* pixels, const PixelRun& where, int level, PixelRun* out, std::size_t room);
 
 namespace avx2 {

@@ -1,4 +1,4 @@
-// Compiled with -mavx2 (CMakeLists.txt); reached only where the processor has it.
+// Compiled with -mavx2 (CMakeLists.txt); called only on processors with AVX2.
 
 #include "slam/perception/lamps/bright_runs_loops.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
-// The loops of bright_runs.hpp, included once for each instruction set they are compiled for, with kLanes pixels to a
-// register. Everything here has internal linkage and calls nothing of the standard library, so that no code for one
-// processor can be linked into another's.
+// The loops of bright_runs.hpp, included once for each instruction set that they are compiled for, with kLanes pixels
+// to a register. All names here have internal linkage, and no code calls the standard library, so the linker cannot
+// merge code for different processors.
 
 #include "slam/perception/lamps/bright_runs.hpp"
 
@@ -21,10 +21,10 @@ constexpr int kLanes = 16;
 constexpr int kLanesAtOnce = 4 * kLanes;
 // NOLINTEND(misc-definitions-in-headers)
 using Pixels = std::uint8_t __attribute__((vector_size(kLanes)));
-using PixelsAnywhere [[gnu::aligned(1), gnu::may_alias]] = Pixels;  // in memory
+using PixelsAnywhere [[gnu::aligned(1), gnu::may_alias]] = Pixels;  // In memory, without alignment
 using Chars = char __attribute__((vector_size(kLanes)));
 
-/// Collects the columns at which a row begins and ceases to shine.
+/// Collects the columns at which runs of bright pixels begin and end.
 struct Edges {
   PixelRun* out;
   std::size_t room;
@@ -32,7 +32,7 @@ struct Edges {
   std::size_t count = 0;
   bool inside = false;
 
-  /// The pixels from `u` on, one bit each.
+  /// `shining` has one bit for each of the kLanes pixels from `u` on.
   void add(std::uint32_t shining, int u) {
     constexpr std::uint32_t kAll = static_cast<std::uint32_t>((std::uint64_t{1} << kLanes) - 1);
     std::uint32_t edges = (shining ^ ((shining << 1U) | static_cast<std::uint32_t>(inside))) & kAll;
@@ -49,12 +49,12 @@ struct Edges {
   }
 };
 
-// Not memcpy: for arm64 GCC takes that through the stack.
+// A cast instead of memcpy: GCC copies through the stack for memcpy on arm64.
 inline Pixels load(const std::uint8_t* from) { return *reinterpret_cast<const PixelsAnywhere*>(from); }
 
 inline Pixels brighter(const Pixels& a, const Pixels& b) { return a > b ? a : b; }
 
-/// One bit for each pixel of `level` or more.
+/// Returns one bit for each pixel of at least `level`.
 inline std::uint32_t at_least(const Pixels& pixels, const Pixels& level) {
   const auto mask = pixels >= level;
 #if defined(__AVX2__)
@@ -71,7 +71,7 @@ inline std::uint32_t at_least(const Pixels& pixels, const Pixels& level) {
 #endif
 }
 
-/// Whether any of kLanesAtOnce pixels shines.
+/// Whether any of kLanesAtOnce pixels is at least `level`.
 inline bool any(const std::uint8_t* pixels, const Pixels& level) {
   const Pixels brightest = brighter(brighter(load(pixels), load(pixels + kLanes)),
                                     brighter(load(pixels + 2 * kLanes), load(pixels + 3 * kLanes)));

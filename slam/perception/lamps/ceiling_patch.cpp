@@ -11,11 +11,11 @@
 namespace azimuth {
 namespace {
 
-constexpr double kLowest_rad = 0.02;  // nearer to the horizon a pixel holds half the ceiling
+constexpr double kLowest_rad = 0.02;  // Nearer to the horizon, a pixel covers too large a part of the ceiling
 
 struct CeilingPoint {
-  Eigen::Vector2d at = Eigen::Vector2d::Zero();  ///< along the robot's axes, in heights
-  double pixel_area = 0.0;                       ///< of the ceiling in one pixel there
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();  ///< Along the robot's axes, in ceiling heights
+  double pixel_area = 0.0;                       ///< Ceiling area that one pixel covers there
 };
 
 std::optional<CeilingPoint> ceiling_point(const CameraModel& camera, const Pixel& pixel) {
@@ -24,8 +24,8 @@ std::optional<CeilingPoint> ceiling_point(const CameraModel& camera, const Pixel
   const auto jacobian = camera.direction_jacobian(pixel);
   const double sine = std::sin(direction->elevation_rad), cosine = std::cos(direction->elevation_rad);
   const double distance = cosine / sine;
-  // Solid angle of the pixel, then how much ceiling subtends it: d A = d Omega / sin^3. Straight up, both the cosine
-  // and the azimuth's change are at their limits.
+  // The solid angle of the pixel, then the ceiling area that subtends it: dA = dOmega / sin^3. The bound on the cosine
+  // handles the zenith.
   const double solid_angle = std::abs(jacobian->determinant()) * std::max(cosine, 1e-9);
   return CeilingPoint{{distance * std::cos(direction->azimuth_rad), distance * std::sin(direction->azimuth_rad)},
                       solid_angle / (sine * sine * sine)};
@@ -33,7 +33,7 @@ std::optional<CeilingPoint> ceiling_point(const CameraModel& camera, const Pixel
 
 using Points = std::array<CeilingPoint, 4>;
 
-/// The centroid and one and a bit standard deviations to each side along both axes of the spread: these points have its
+/// Four points on the axes of the spread, sqrt(2) standard deviations from the centroid: they have the spread's
 /// covariance.
 std::optional<Points> sample(const CameraModel& camera, const Pixel& centroid, const Eigen::Matrix2d& spread_px2) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;

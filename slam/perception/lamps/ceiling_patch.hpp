@@ -6,20 +6,21 @@
 
 namespace azimuth {
 
-/// A spot in the image as a patch of light in a horizontal ceiling. Lengths are in units of the ceiling's height above
-/// the camera.
+/// An image spot interpreted as a patch of light in a horizontal ceiling. Lengths are in units of the ceiling's height
+/// above the camera.
 struct CeilingPatch {
   Pixel middle = Pixel::Zero();  ///< the image of the patch's middle
-  double length_heights = 0.0;   ///< of a rectangle with the same moments
-  double area_heights2 = 0.0;    ///< likewise
+  double length_heights = 0.0;   ///< Length of the rectangle with the same second moments
+  double area_heights2 = 0.0;    ///< Area of that rectangle
 };
 
-/// The patch behind a spot with that centroid and covariance of its pixels. Nothing for spots that no ceiling makes:
-/// parts of them are not above the horizon, or where the camera does not see.
+/// Computes the ceiling patch behind a spot with the given centroid and pixel covariance. Returns nullopt if parts of
+/// the spot are not above the horizon or lie outside the camera's field of view.
 ///
-/// The middle of a lamp is not where its image has its centroid, since the nearer part of the lamp is the larger one:
-/// for a lamp of 1.2 m, 4 m away, that is a pixel. So the spot is mapped to the ceiling at four points that have its
-/// moments, each weighted by the area of ceiling in one pixel there, which is exact to the third order.
+/// The image of a lamp's centre differs from the centroid of the lamp's image, because the nearer part of the lamp
+/// appears larger: for a lamp of 1.2 m at 4 m distance the difference is one pixel. The spot is therefore mapped to the
+/// ceiling at four points with the moments of the spot, each weighted by the ceiling area that one pixel covers there.
+/// This is exact to third order.
 ///
 /// Thread contract: reentrant. Nothing allocates.
 std::optional<CeilingPatch> ceiling_patch(const CameraModel& camera, const Pixel& centroid,

@@ -4,10 +4,10 @@
 
 namespace azimuth {
 
-/// A grey image that somebody else holds.
+/// A grey image, not owned.
 struct GrayView {
   const std::uint8_t* pixels = nullptr;
-  std::ptrdiff_t stride = 0;  ///< from row to row
+  std::ptrdiff_t stride = 0;  ///< Bytes from one row to the next
   int width_px = 0;
   int height_px = 0;
 

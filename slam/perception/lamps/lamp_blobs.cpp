@@ -75,14 +75,14 @@ void LampBlobs::append(std::uint32_t run) {
   last = run;
 }
 
-/// Runs of a row against those of the row above, from left to right in both.
+/// Joins the runs of each row with those of the row above, both from left to right.
 void LampBlobs::join_neighbours() {
   std::uint32_t above = 0;
   for (std::uint32_t here = 0; here < runs_.size(); ++here) {
     const PixelRun& run = runs_[here];
     while (runs_[above].row < run.row - 1 || (runs_[above].row == run.row - 1 && runs_[above].last < run.first))
       ++above;
-    // The last one that touches may touch the next run as well, so `above` stays before it.
+    // The last touching run may also touch the next run, so `above` stays before it.
     for (std::uint32_t k = above; runs_[k].row == run.row - 1 && runs_[k].first <= run.last; ++k) join(k, here);
   }
 }
@@ -100,7 +100,7 @@ std::uint32_t LampBlobs::root(std::uint32_t run) {
 
 LampBlobs::Sums LampBlobs::sums_of(const GrayView& image, const PixelRun& run, int threshold) {
   const std::uint8_t* const pixels = image.row(run.row);
-  std::uint64_t w = 0, wi = 0, wii = 0;  // i: columns from the run's first
+  std::uint64_t w = 0, wi = 0, wii = 0;  // i: columns from the first column of the run.
   int peak = 0;
   for (int u = run.first; u < run.last; ++u) {
     const auto weight = static_cast<std::uint64_t>(pixels[u] - threshold + 1),
@@ -119,7 +119,7 @@ LampBlob LampBlobs::blob_of(const Sums& sums) {
   const auto mean = [&sums](std::uint64_t sum) { return static_cast<double>(sum) / static_cast<double>(sums.w); };
   LampBlob blob{.area_px = sums.area, .peak = sums.peak, .weight = static_cast<double>(sums.w)};
   blob.centroid = {mean(sums.wu), mean(sums.wv)};
-  constexpr double kPixel = 1.0 / 12.0;  // the moment of a pixel's own square
+  constexpr double kPixel = 1.0 / 12.0;  // The second moment of a pixel's own square
   const double uv = mean(sums.wuv) - blob.centroid.x() * blob.centroid.y();
   blob.spread_px2 << mean(sums.wuu) - blob.centroid.x() * blob.centroid.x() + kPixel, uv, uv,
       mean(sums.wvv) - blob.centroid.y() * blob.centroid.y() + kPixel;

@@ -11,24 +11,25 @@
 
 namespace azimuth {
 
-/// Pixels that hang together, corners included, each weighted by how far it is above the threshold: so a pixel at the
-/// outline that comes and goes with the noise hardly moves the centroid.
+/// A connected set of pixels (8-neighbourhood), each weighted by its excess over the threshold. Because of the weights,
+/// pixels at the outline that noise adds or removes hardly move the centroid.
 struct LampBlob {
   int area_px = 0;
-  int peak = 0;         ///< the brightest value
-  double weight = 0.0;  ///< of all pixels together
+  int peak = 0;         ///< The greatest pixel value
+  double weight = 0.0;  ///< Sum over all pixels
   Pixel centroid = Pixel::Zero();
-  Eigen::Matrix2d spread_px2 = Eigen::Matrix2d::Zero();  ///< covariance of the weighted pixels, each of them a square
+  /// Covariance of the weighted pixels, each pixel taken as a square
+  Eigen::Matrix2d spread_px2 = Eigen::Matrix2d::Zero();
 
   /// The rectangle with the same spread.
   struct Rectangle {
-    Eigen::Vector2d along = Eigen::Vector2d::UnitX();  ///< of its length; to either end
+    Eigen::Vector2d along = Eigen::Vector2d::UnitX();  ///< Unit vector along the rectangle's length, of either sign
     double length_px = 0.0, thickness_px = 0.0;
   };
   Rectangle rectangle() const;
 
-  /// Area over that of a rectangle with the same spread: 1.05 for ellipses, clearly less where parts of a blob are
-  /// joined by something thin, or where it is bent.
+  /// The blob's area over that of the rectangle with the same spread: 1.05 for ellipses, clearly less for a bent blob
+  /// or for parts joined by something thin.
   double fill() const;
 };
 
@@ -39,18 +40,18 @@ class LampBlobs {
  public:
   void reserve(std::size_t runs);
 
-  /// `runs` by rows from above, then from left to right, maximal, all inside the image and of pixels of `threshold` or
-  /// more. They must stay where they are as long as runs are asked for.
+  /// `runs` must be sorted by row from above, then from left to right; they must be maximal, inside the image and
+  /// consist of pixels of at least `threshold`. They must stay valid as long as this object is asked for runs.
   void group(const GrayView& image, std::span<const PixelRun> runs, int threshold);
 
-  /// In the order of their first runs.
+  /// All blobs, in the order of their first runs.
   const std::vector<LampBlob>& all() const { return blobs_; }
 
-  /// Replaces `out` by the runs of a blob, in their order.
+  /// Replaces the content of `out` with the runs of a blob, in their order.
   void runs_of(std::size_t blob, std::vector<PixelRun>& out) const;
 
  private:
-  /// Weighted sums over pixels, exact for every blob of less than 1e8 of them.
+  /// Weighted sums over pixels, exact for every blob of less than 1e8 pixels.
   struct Sums {
     std::uint64_t w = 0, wu = 0, wv = 0, wuu = 0, wuv = 0, wvv = 0;
     int area = 0, peak = 0;
@@ -70,11 +71,11 @@ class LampBlobs {
   std::uint32_t root(std::uint32_t run);
 
   std::span<const PixelRun> runs_;
-  std::vector<std::uint32_t> parents_;  // of each run: an earlier one of the same blob, or itself
-  std::vector<std::uint32_t> numbers_;  // of each run: its blob
-  std::vector<std::uint32_t> nexts_;    // of each run: the next of its blob, itself for the last
-  std::vector<Ends> ends_;              // of each blob
-  std::vector<Sums> sums_;              // of each blob
+  std::vector<std::uint32_t> parents_;  // Of each run: an earlier run of the same blob, or itself.
+  std::vector<std::uint32_t> numbers_;  // Of each run: the index of its blob.
+  std::vector<std::uint32_t> nexts_;    // Of each run: the next run of its blob, or itself for the last.
+  std::vector<Ends> ends_;              // Of each blob
+  std::vector<Sums> sums_;              // Of each blob
   std::vector<LampBlob> blobs_;
 };
 

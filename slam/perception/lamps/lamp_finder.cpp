@@ -25,7 +25,7 @@ void LampFinder::find(const GrayView& image, const VisibleRows& visible, std::ve
   }
 }
 
-/// Nothing when there is no room for all.
+/// Returns no runs if there is no room for all.
 LampFinder::Runs LampFinder::scan(const GrayView& image, Runs where, int threshold, std::vector<PixelRun>& room) {
   std::size_t count = 0;
   for (const PixelRun& stretch : where) {
@@ -35,7 +35,7 @@ LampFinder::Runs LampFinder::scan(const GrayView& image, Runs where, int thresho
   return {room.data(), count};
 }
 
-/// A lamp is a source of light, all others are lit by it.
+/// Whether the blob is bright enough to be a source of light and not a lit surface.
 bool LampFinder::is_bright(const LampBlob& blob) const {
   return blob.peak - light_.background >= settings_.min_peak_share * (light_.lamps - light_.background);
 }
@@ -44,10 +44,11 @@ bool LampFinder::is_whole(const VisibleRows& visible) const {
   return std::ranges::none_of(blob_runs_, [&visible](const PixelRun& run) { return visible.at_border(run); });
 }
 
-/// Beyond an end, darker than the threshold. What is two pixels thick fills one everywhere, and is above it.
+/// Whether the lamp continues beyond an end of the blob, darker than the threshold. A lamp at least two pixels thick
+/// fills at least one pixel everywhere, so all of it exceeds the threshold.
 bool LampFinder::goes_on(const GrayView& image, const LampBlob& blob) const {
   constexpr double kThin_px = 2.0;
-  // Of a whole lamp nothing is left there, however the lens blurs it and one end is nearer than the other.
+  // At this distance no light of a complete lamp is left, with lens blur and perspective allowed for.
   constexpr double kBeyond_px = 1.5, kBeyondPerLength = 0.1;
   const LampBlob::Rectangle lamp = blob.rectangle();
   if (lamp.thickness_px >= kThin_px) return false;
@@ -75,7 +76,8 @@ void LampFinder::take(const GrayView& image, const LampBlob& blob, std::vector<L
     if (part(image, light_.threshold + (blob.peak - light_.threshold) * k / kLevels, out)) return;
 }
 
-/// Two or more whole lamps in the blob whose runs are in blob_runs_.
+/// Splits the blob whose runs are in blob_runs_ at a higher threshold. Succeeds if at least two parts are complete
+/// lamps.
 bool LampFinder::part(const GrayView& image, int threshold, std::vector<LampBlob>& out) {
   parts_.group(image, scan(image, blob_runs_, threshold, part_runs_), threshold);
   const auto is_lamp = [&](const LampBlob& blob) {

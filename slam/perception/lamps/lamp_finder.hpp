@@ -11,19 +11,19 @@
 
 namespace azimuth {
 
-/// Finds bright spots, as far as the image alone tells what may be a lamp: bright enough, whole, and one.
+/// Finds bright spots that may be lamps, as far as the image alone can tell: bright enough, complete and single.
 ///
-/// A spot that reaches the border of what is visible is left out, since the middle of what is hidden is not known; so
-/// is one that is a piece of a lamp too thin to be above the threshold everywhere. Two lamps that run into each other
-/// are parted where a higher threshold parts them, else left out.
+/// A spot that reaches the border of the visible area is left out, since the centre of a partly hidden lamp is unknown.
+/// A spot that is a fragment of a lamp too thin to exceed the threshold everywhere is left out too. Two lamps that
+/// merge into one spot are separated if a higher threshold separates them, and are left out otherwise.
 ///
 /// Thread contract: thread-bound. Nothing allocates after construction.
 class LampFinder {
  public:
   explicit LampFinder(const LampSettings& settings);
 
-  /// Replaces `out` by the spots in an image of the size of `visible`. An image with more than kMostRuns bright runs
-  /// shows none.
+  /// Replaces the content of `out` with the spots in `image`, which must have the size of `visible`. Gives no spots for
+  /// an image with more than kMostRuns bright runs.
   void find(const GrayView& image, const VisibleRows& visible, std::vector<LampBlob>& out);
 
   static constexpr std::size_t kMostRuns = std::size_t{1} << 16U;
@@ -44,7 +44,7 @@ class LampFinder {
   LightLevels levels_;
   Light light_;
   LampBlobs blobs_, parts_;
-  std::vector<PixelRun> runs_, part_runs_;  // room for kMostRuns
+  std::vector<PixelRun> runs_, part_runs_;  // Room for kMostRuns runs
   std::vector<PixelRun> blob_runs_;
 };
 

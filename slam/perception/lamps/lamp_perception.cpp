@@ -19,7 +19,7 @@ std::optional<CameraModel> model_of(CameraRig rig, int width_px, int height_px) 
   return camera_of(rig, ignored);
 }
 
-/// 255 where the camera sees something above `min_elevation_rad` and the mask hides nothing.
+/// Returns 255 for pixels that see a direction above `min_elevation_rad` and are not masked, else 0.
 std::vector<std::uint8_t> visible_pixels(const CameraModel& camera, const MaskShape& mask, double min_elevation_rad,
                                          int width_px, int height_px) {
   std::vector<std::uint8_t> visible = ImageMask(camera.axes(), mask).raster(width_px, height_px);
@@ -34,13 +34,14 @@ std::vector<std::uint8_t> visible_pixels(const CameraModel& camera, const MaskSh
   return visible;
 }
 
-/// How much of a slanted lamp's light the threshold takes away in some places along it and not in others, as the
-/// amplitude of a wave. With the threshold half way up, a lamp that is t pixels thick keeps t / 2 of its light where
-/// its outline is between pixels, and (t - 1) / 2 where it is in the middle of them (docs/mathematics.md, VI.27).
+/// The share of a slanted lamp's light that the threshold removes in some places along the lamp and not in others, as
+/// the amplitude of a wave. With the threshold at half the lamp's brightness, a lamp that is t pixels thick keeps t / 2
+/// of its light where its outline is between pixels, and (t - 1) / 2 where it is in the middle of them
+/// (docs/mathematics.md, VI.27).
 double share_cut(const LampBlob& blob) { return 0.5 / std::max(blob.rectangle().thickness_px - 0.5, 0.5); }
 
-/// The Jacobian ends the growth of the azimuth's variance at ImageAxes::kNearCentre_px, which is much for a spot known
-/// to a tenth of a pixel. In truth it grows until nothing is known of the azimuth.
+/// The Jacobian stops the growth of the azimuth's variance at ImageAxes::kNearCentre_px, which is too far out for a
+/// spot known to a tenth of a pixel. This function lets the variance grow up to that of an unknown azimuth.
 double near_centre(double variance_rad2, double radius_px) {
   constexpr double kNothingKnown_rad2 = kPi * kPi / 3.0;
   const double nearer = ImageAxes::kNearCentre_px / std::clamp(radius_px, 1e-6, ImageAxes::kNearCentre_px);
@@ -90,7 +91,7 @@ void LampPerception::observe(const ImageView& image, BearingSet& out) {
   }
 }
 
-/// As it is where brightness has a plane of its own already.
+/// Returns the image itself if its format has a plane of brightness.
 GrayView LampPerception::gray(const ImageView& image) {
   const int width_px = image.format.width_px, height_px = image.format.height_px;
   const bool is_gray = image.format.pixels == PixelFormat::gray8 || image.format.pixels == PixelFormat::nv12;
@@ -110,8 +111,8 @@ std::optional<DetectedLamp> LampPerception::lamp(const LampBlob& blob) const {
   return DetectedLamp{patch->middle, covariance_px2(blob), blob};
 }
 
-/// Of the centroid: noise of the pixels, each at its distance from the middle, over their weight; what is unknown of
-/// how a lamp shines; what the threshold takes away here and there; and what is unknown of everything else.
+/// Covariance of the lamp's position: pixel noise at its distance from the centroid over the blob's weight, uneven
+/// light, the varying loss of light by the threshold, and all other errors.
 Eigen::Matrix2d LampPerception::covariance_px2(const LampBlob& blob) const {
   const double noise = finder_.light().noise / blob.weight;
   const double uneven = settings_.sigma_per_spread, cut = settings_.sigma_per_cut_spread * share_cut(blob);
@@ -131,7 +132,7 @@ std::optional<Bearing> LampPerception::bearing(const DetectedLamp& lamp) const {
     const auto cell = table_->at(lamp.pixel);
     if (!cell) return std::nullopt;
     direction = cell->middle;
-    variance = variance.cwiseMax(cell->half_rad.cwiseAbs2() / 3.0);  // of an even distribution
+    variance = variance.cwiseMax(cell->half_rad.cwiseAbs2() / 3.0);  // Of a uniform distribution
   }
   Bearing bearing;
   bearing.azimuth_rad = direction->azimuth_rad;

@@ -14,26 +14,27 @@ namespace azimuth {
 
 /// A lamp in the image.
 struct DetectedLamp {
-  Pixel pixel = Pixel::Zero();  ///< where its middle is
+  Pixel pixel = Pixel::Zero();  ///< The image of the lamp's centre
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();
   LampBlob blob;
 };
 
-/// Lamps of a ceiling, all alike: bearings with azimuth and elevation, the standard deviations of both, and nothing
-/// that tells one from the other (SPEC II.1).
+/// Finds ceiling lamps, which all look alike. The bearings have azimuth and elevation, the standard deviations of both,
+/// and no identity (mathematics II.1).
 ///
-/// Where the rig does not say how large images are, one of another size than the last starts over, at the cost of the
-/// tables that depend on it; else it is unreadable.
+/// If the rig does not give the image size, an image of a new size makes this class rebuild the tables that depend on
+/// the size. If the rig gives the size, an image of another size is unreadable.
 ///
-/// Thread contract: as Perception's.
+/// Thread contract: that of Perception.
 class LampPerception final : public Perception {
  public:
-  /// A camera whose model knows elevations (camera_of() gives something); without, nothing is ever found.
+  /// The rig must have a camera model that knows elevations (camera_of() returns a model). Without one, no lamp is ever
+  /// found.
   LampPerception(const CameraRig& rig, const LampSettings& settings);
 
   void observe(const ImageView& image, BearingSet& out) override;
 
-  /// Of the last image, in the order of its bearings.
+  /// The lamps of the last image, in the order of its bearings.
   const std::vector<DetectedLamp>& lamps() const { return lamps_; }
   const Light& light() const { return finder_.light(); }
 

@@ -8,15 +8,16 @@
 namespace azimuth {
 namespace {
 
-constexpr double kSamples = 10'000;  // about; their median is good to a hundredth of the noise
-constexpr std::size_t kTables = 4;   // counting turn by turn: the same value twice running would wait for itself
+constexpr double kSamples = 10'000;  // Approximate; the median of so many samples is good to a hundredth of the noise.
+// The counts alternate between tables, since two increments of one counter in a row would stall
+constexpr std::size_t kTables = 4;
 
-/// From sample to sample, along rows and from row to row.
+/// Distance between samples, along rows and from row to row.
 int spacing_px(int width_px, int height_px) {
   return std::max(1, static_cast<int>(std::sqrt(static_cast<double>(width_px) * height_px / kSamples)));
 }
 
-/// The smallest value that `share` of all samples do not exceed.
+/// The smallest value that a part `share` of all samples does not exceed.
 int quantile(const std::array<std::uint32_t, 256>& histogram, double share) {
   double total = 0.0, below = 0.0;
   for (const std::uint32_t count : histogram) total += count;
@@ -47,7 +48,8 @@ Light LightLevels::judge(const GrayView& image, const VisibleRows& visible) {
   const Histogram histogram = sample(image, visible);
   Light light;
   light.background = quantile(histogram, 0.5);
-  // 68% of a normal distribution lie within one standard deviation. Only the lower side: lamps are on the other.
+  // 68 % of a normal distribution lie within one standard deviation. Only the lower side is used, since lamps are on
+  // the upper side.
   light.noise = std::max(1.0, light.background - quantile(histogram, 0.16));
   light.lamps = quantile(histogram, 1.0 - settings_.light_share);
   const double contrast = light.lamps - light.background;

@@ -9,8 +9,8 @@
 namespace azimuth {
 namespace {
 
-/// Angle of (x, y) in eighths of a turn, [0, 8]: a polynomial for the arc tangent from 0 to 1, off by less than 0.0002
-/// of an eighth's width, where the library's would take most of a descriptor's time.
+/// The angle of (x, y) in eighths of a turn, in [0, 8], by a polynomial for the arc tangent from 0 to 1. Its error is
+/// less than 0.0002 eighths. The library's arc tangent would take most of a descriptor's time.
 float eighths(float y, float x) {
   const float ax = std::abs(x), ay = std::abs(y);
   const float ratio = std::min(ax, ay) / std::max(std::max(ax, ay), 1e-30F);
@@ -26,7 +26,7 @@ float eighths(float y, float x) {
   return y < 0.0F ? 8.0F - result : result;
 }
 
-/// Between pixels; beyond the edge it goes on.
+/// Bilinear interpolation between pixels; beyond the edge, the edge pixels are repeated.
 float interpolate(const Plane<float>& plane, float x, float y) {
   x = std::clamp(x, 0.0F, static_cast<float>(plane.width() - 1));
   y = std::clamp(y, 0.0F, static_cast<float>(plane.height() - 1));
@@ -46,7 +46,7 @@ DescriptorMaker::DescriptorMaker(const SiftSettings& settings)
     : subregion_sigmas_(static_cast<float>(settings.subregion_sigmas)), clip_(static_cast<float>(settings.clip)) {
   for (int i = 0; i < kGradients; ++i) {
     const double subregions_from_middle = (i + 0.5 - 0.5 * kGradients) / kSamplesPerSubregion;
-    const double place = subregions_from_middle + 0.5 * kSubregions - 0.5;  // 0: middle of the first subregion
+    const double place = subregions_from_middle + 0.5 * kSubregions - 0.5;  // 0 is the middle of the first subregion
     const double first = std::floor(place), off = subregions_from_middle / settings.window_subregions;
     const double window = std::exp(-0.5 * off * off);
     shares_[as_size(i)] = {static_cast<int>(first), static_cast<float>(window * (first + 1.0 - place)),

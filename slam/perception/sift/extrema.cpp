@@ -15,13 +15,13 @@ namespace {
 using Eigen::Matrix3f;
 using Eigen::Vector3f;
 
-// An extremum of the samples may be this much weaker than that of the function fitted to them.
+// The greatest sample may be lower than the extremum of the function fitted to the samples, by this factor.
 constexpr double kSampledShare = 0.8;
 constexpr int kMostMoves = 5;
-constexpr float kFinestScale = 1.0F;  // of the first octave: finer ones are found or not by chance
-constexpr float kFarthest = 1.0F;     // from the nearest sample, in steps between samples
+constexpr float kFinestScale = 1.0F;  // In scales of the first octave: finer extrema are found by chance only.
+constexpr float kFarthest = 1.0F;     // Distance from the nearest sample, in steps between samples
 
-/// A sample of the difference of Gaussians and those around it; axes are x, y and scale.
+/// A sample of the difference of Gaussians and its neighbours; the axes are x, y and scale.
 class Samples {
  public:
   Samples(const ScaleSpace& space, int octave, int layer, int x, int y)
@@ -53,15 +53,15 @@ class Samples {
   int x_, y_;
 };
 
-/// Where the quadratic through the samples has its extremum.
+/// The extremum of the quadratic through the samples.
 struct Fit {
-  int x = 0, y = 0, layer = 0;         ///< sample nearest to it
-  Vector3f offset = Vector3f::Zero();  ///< from there
+  int x = 0, y = 0, layer = 0;         ///< The nearest sample
+  Vector3f offset = Vector3f::Zero();  ///< Of the extremum from this sample
   float value = 0.0F;
   Matrix3f hessian = Matrix3f::Zero();
 };
 
-/// The sample nearest to the extremum as computed from this one, as far as there are any in this octave.
+/// Moves the fit to the sample nearest to the computed extremum, within this octave.
 void move(const ScaleSpace& space, int octave, Fit& fit) {
   const Plane<float>& plane = space.difference(octave, 0);
   const auto moved = [](int from, float offset, int last) {
@@ -74,8 +74,8 @@ void move(const ScaleSpace& space, int octave, Fit& fit) {
 
 bool same_sample(const Fit& a, const Fit& b) { return a.x == b.x && a.y == b.y && a.layer == b.layer; }
 
-/// False: the samples have no extremum. In doubles: sums of three floats come about in another order on arm64 than on
-/// x86.
+/// Returns false if the quadratic has no extremum. Uses doubles, because sums of three floats are evaluated in another
+/// order on arm64 than on x86.
 bool solve(const ScaleSpace& space, int octave, Fit& fit) {
   const Samples samples(space, octave, fit.layer, fit.x, fit.y);
   fit.hessian = samples.hessian();
@@ -88,8 +88,9 @@ bool solve(const ScaleSpace& space, int octave, Fit& fit) {
   return fit.offset.allFinite();
 }
 
-/// Moves from sample to sample until the extremum is nearest to the one it is computed from. One that lies halfway
-/// between two samples, or between two octaves, may be nearest to neither as seen from each: it is kept.
+/// Moves from sample to sample until the extremum lies nearest to the sample from which it was computed. An extremum
+/// halfway between two samples, or between two octaves, may lie nearer to another sample as seen from each; it is kept
+/// too.
 std::optional<Fit> fit_extremum(const ScaleSpace& space, int octave, int layer, int x, int y) {
   Fit before{-1, -1, -1}, fit{x, y, layer};
   for (int moves = 0; moves <= kMostMoves; ++moves) {
@@ -105,7 +106,7 @@ std::optional<Fit> fit_extremum(const ScaleSpace& space, int octave, int layer, 
   return std::nullopt;
 }
 
-/// Lowe: Tr^2 / Det < (r + 1)^2 / r for the curvatures across the image.
+/// Lowe's test: a point is not on an edge if Tr^2 / Det < (r + 1)^2 / r for the curvatures in the image.
 bool on_edge(const Matrix3f& hessian, float ratio) {
   const float trace = hessian(0, 0) + hessian(1, 1);
   const float determinant = hessian(0, 0) * hessian(1, 1) - hessian(0, 1) * hessian(0, 1);
@@ -123,7 +124,7 @@ KeyPoint key_point(const ScaleSpace& space, int octave, const Fit& fit) {
           .layer = fit.layer};
 }
 
-/// Half of them, the strongest; gives the response that newcomers must beat.
+/// Keeps the stronger half of the key points; returns the response that further ones must exceed.
 float make_room(std::vector<KeyPoint>& key_points) {
   const auto middle = key_points.begin() + static_cast<std::ptrdiff_t>(key_points.size() / 2);
   std::nth_element(key_points.begin(), middle, key_points.end(), stronger);
@@ -131,16 +132,18 @@ float make_room(std::vector<KeyPoint>& key_points) {
   return std::ranges::max_element(key_points, stronger)->response;
 }
 
-/// Whether two key points are one that was found from two samples or in two octaves.
+/// Whether two key points are the same feature, found from two samples or in two octaves.
 bool same_thing(const KeyPoint& a, const KeyPoint& b) {
-  constexpr float kApart = 0.5F, kLarger = 1.2F;  // in multiples of the scale, and of scales
+  // kApart is in multiples of the smaller scale, kLarger is the greatest ratio of the scales
+  constexpr float kApart = 0.5F, kLarger = 1.2F;
   const float smaller_px = std::min(a.sigma_px, b.sigma_px), larger_px = std::max(a.sigma_px, b.sigma_px);
   return larger_px < kLarger * smaller_px && hypotenuse(a.x_px - b.x_px, a.y_px - b.y_px) < kApart * smaller_px;
 }
 
-/// Of key points that are one, the strongest stays. From top to bottom, so that each need only look at a few.
+/// Keeps only the strongest of equal key points. Sorting from top to bottom limits each search to a few key points.
 void drop_doubles(std::vector<KeyPoint>& key_points) {
-  const auto drop = [](KeyPoint& point) { point.sigma_px = -point.sigma_px; };  // such a scale is like no other
+  // No other key point matches a negative scale
+  const auto drop = [](KeyPoint& point) { point.sigma_px = -point.sigma_px; };
   std::ranges::sort(key_points, [](const KeyPoint& a, const KeyPoint& b) {
     return a.y_px != b.y_px ? a.y_px < b.y_px : stronger(a, b);
   });

@@ -9,20 +9,20 @@
 
 namespace azimuth {
 
-/// Finds key points: extrema of the difference of Gaussians over place and scale, placed between pixels by a quadratic
-/// fit, neither weak nor on an edge nor near anything hidden.
+/// Finds key points: extrema of the difference of Gaussians over position and scale, located between pixels by a
+/// quadratic fit. Weak extrema, extrema on edges and extrema near hidden pixels are rejected.
 ///
-/// However noisy an image is, the work is bounded: kMost key points are kept, the strongest, and weaker ones make room.
+/// The work is bounded for images of any noise: only the kMost strongest key points are kept.
 ///
-/// Thread contract: thread-bound. Nothing allocates after construction but for larger images.
+/// Thread contract: thread-bound. Nothing allocates after construction unless images become larger.
 class ExtremumFinder {
  public:
   static constexpr std::size_t kMost = 4096;
 
   explicit ExtremumFinder(const SiftSettings& settings);
 
-  /// Replaces `out` by the key points of `space`, in no particular but always the same order. `region` is that of the
-  /// image `space` was built from, `contrast` the least that a key point must have in it.
+  /// Replaces the content of `out` with the key points of `space`, in a reproducible but unspecified order. `region`
+  /// belongs to the image from which `space` was built; `contrast` is the least contrast of a key point.
   void find(const ScaleSpace& space, const VisibleRegion& region, double contrast, std::vector<KeyPoint>& out);
 
  private:
@@ -31,7 +31,7 @@ class ExtremumFinder {
 
   SiftSettings settings_;
   std::vector<std::int32_t> columns_;
-  float least_sample_ = 0.0F, least_response_ = 0.0F;  // the latter rises when there is no room left
+  float least_sample_ = 0.0F, least_response_ = 0.0F;  // least_response_ rises when there is no room left
 };
 
 }  // namespace azimuth

@@ -10,16 +10,18 @@
 
 namespace azimuth {
 
-/// A detector with its descriptor: our own or a reference.
+/// A detector with its descriptor: the built-in one or a reference.
 ///
-/// Thread contract: thread-bound. Same image, same bits.
+/// Thread contract: thread-bound. The same image gives the same bits.
 class FeatureFinder {
  public:
   virtual ~FeatureFinder() = default;
 
-  /// All key points of a square image, values in 1/256 of a grey level, that are far enough from what `region` hides.
+  /// Finds all key points of a square image (values in 1/256 of a grey level) that are far enough from the pixels that
+  /// `region` hides.
   virtual void detect(const Plane<std::uint16_t>& image, const VisibleRegion& region, std::vector<KeyPoint>& out) = 0;
-  /// Of key points in the image that was last given to detect(). May leave some out, which are then erased.
+  /// Describes key points of the image last given to detect(). May drop some key points, which are erased from
+  /// `key_points`.
   virtual void describe(std::vector<KeyPoint>& key_points, std::vector<Descriptor>& out) = 0;
 };
 

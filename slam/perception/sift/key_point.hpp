@@ -1,18 +1,18 @@
 #pragma once
 namespace azimuth {
 
-/// A place in the working image that stands out from its surroundings at its scale.
+/// A point of the working image that differs from its surroundings at its scale.
 struct KeyPoint {
-  float x_px = 0.0F;  ///< to the right; whole numbers are the centres of pixels of the working image
-  float y_px = 0.0F;  ///< down
+  float x_px = 0.0F;  ///< To the right; integer values are pixel centres of the working image.
+  float y_px = 0.0F;  ///< Down
   float sigma_px = 0.0F;
-  float response = 0.0F;   ///< absolute difference of Gaussians at the extremum, for intensities from 0 to 1
-  float angle_rad = 0.0F;  ///< of the descriptor's frame where the detector chose one, from the x axis towards y
+  float response = 0.0F;   ///< Absolute difference of Gaussians at the extremum, for intensities from 0 to 1
+  float angle_rad = 0.0F;  ///< Angle of the descriptor's frame, if the detector chose one, from the x axis towards y
   int octave = 0;
-  int layer = 0;  ///< of the octave's images, the one that describes it
+  int layer = 0;  ///< Index of the octave's image from which the descriptor is computed
 };
 
-/// Stronger ones first; equal ones by place, so that the order never depends on how they were found.
+/// Orders key points by falling response, and equal ones by position, so that the order does not depend on the search.
 inline bool stronger(const KeyPoint& a, const KeyPoint& b) {
   if (a.response != b.response) return a.response > b.response;
   if (a.y_px != b.y_px) return a.y_px < b.y_px;

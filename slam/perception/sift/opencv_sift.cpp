@@ -16,7 +16,7 @@ KeyPoint ours(const cv::KeyPoint& theirs) {
           .sigma_px = 0.5F * theirs.size,
           .response = theirs.response,
           .angle_rad = theirs.angle * kDegree,
-          .octave = theirs.octave};  // packed as OpenCV needs it back
+          .octave = theirs.octave};  // Packed in OpenCV's own format
 }
 
 cv::KeyPoint theirs(const KeyPoint& ours) {

@@ -6,8 +6,8 @@
 
 namespace azimuth {
 
-/// OpenCV's SIFT as it comes: the image doubled first, frames by the dominant gradients. Settings that it has as well
-/// are passed on. Allocates for every image, and OpenCV may use threads of its own.
+/// OpenCV's unmodified SIFT: it doubles the image first and takes frames from the dominant gradients. Settings that
+/// exist in OpenCV are passed on. Allocates for every image, and OpenCV may use threads of its own.
 std::unique_ptr<FeatureFinder> opencv_sift(const SiftSettings& settings);
 
 }  // namespace azimuth

@@ -7,12 +7,12 @@
 namespace azimuth {
 namespace {
 
-// Ten times what a sensor's noise of two grey levels leaves in the finest difference of Gaussians: 2 / 255 * 0.7 (the
-// image is shrunk) * 0.045 (of white noise).
+// Ten times the effect of sensor noise of two grey levels on the finest difference of Gaussians: 2 / 255 * 0.7
+// (reduction of the image) * 0.045 (share of white noise that passes).
 constexpr double kLeastContrast = 0.0025;
-constexpr int kEveryRow = 4;  // of those that the light is measured in
+constexpr int kEveryRow = 4;  // Every fourth row is used to measure the light
 
-/// The mean intensity of what an image shows, from 0 to 1.
+/// The mean intensity of the visible part of an image, from 0 to 1.
 double light_of(const Plane<std::uint16_t>& image, const VisibleRegion& region) {
   constexpr double kWhite = 255.0 * 256.0;
   std::uint64_t sum = 0, count = 0;
@@ -35,8 +35,8 @@ OwnSift::OwnSift(const SiftSettings& settings, const ScaleSpaceKernels& kernels)
       finder_(settings),
       maker_(settings) {}
 
-/// Half the light, half of every difference: what is found must not depend on it, down to where noise begins. In more
-/// light than usual there is more to choose from than is needed.
+/// Every difference is proportional to the light, so the contrast limit follows the light: the key points found do not
+/// depend on the light, down to the noise. In more light than usual the limit stays, since there are enough key points.
 double OwnSift::contrast_in(const Plane<std::uint16_t>& image, const VisibleRegion& region) const {
   if (contrast_light_ <= 0.0) return contrast_;
   const double dimmed = contrast_ * light_of(image, region) / contrast_light_;

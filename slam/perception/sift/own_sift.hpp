@@ -6,7 +6,7 @@
 
 namespace azimuth {
 
-/// Our own SIFT. Nothing allocates in the steady state.
+/// The built-in SIFT. Nothing allocates in the steady state.
 class OwnSift final : public FeatureFinder {
  public:
   explicit OwnSift(const SiftSettings& settings, const ScaleSpaceKernels& kernels = scale_space_kernels());

@@ -9,9 +9,9 @@ namespace azimuth {
 namespace {
 
 constexpr int kSmallestSide_px = 4;
-constexpr double kReachSigmas = 3.5;  // beyond it a Gaussian's weight is below 0.3 % of that in its middle
+constexpr double kReachSigmas = 3.5;  // Beyond it, a Gaussian's weight is below 0.3 % of its peak
 
-/// Of the middle, then outwards.
+/// Weights of the centre, then outwards.
 std::vector<float> gaussian_weights(double sigma_px) {
   const int radius = std::max(1, static_cast<int>(std::ceil(kReachSigmas * sigma_px)));
   std::vector<double> weights;
@@ -25,7 +25,7 @@ std::vector<float> gaussian_weights(double sigma_px) {
   return normalised;
 }
 
-/// Blurs add up by their squares.
+/// The blur that must be added: variances add up.
 double blur_between(double from_px, double to_px) {
   constexpr double kLeast_px = 0.1;
   return std::sqrt(std::max(to_px * to_px - from_px * from_px, kLeast_px * kLeast_px));

@@ -1,7 +1,7 @@
 #pragma once
-// The loops of scale_space_kernels.hpp, included once for each instruction set they are compiled for. Everything here
-// has internal linkage and uses nothing of the standard library, so that no code for one processor can be linked into
-// another's. No operation depends on the number of lanes, hence the same bits everywhere.
+// The loops of scale_space_kernels.hpp, included once for each instruction set that they are compiled for. All names
+// here have internal linkage, and no code calls the standard library, so the linker cannot merge code for different
+// processors. No operation depends on the number of lanes, so the bits are the same everywhere.
 
 #include "slam/perception/sift/scale_space_kernels.hpp"
 
@@ -20,17 +20,18 @@ constexpr int kLanes = 4;
 #endif
 constexpr int kBlock = 4 * kLanes;
 using Lanes = float __attribute__((vector_size(4 * kLanes)));
-using LanesAnywhere [[gnu::aligned(4), gnu::may_alias]] = Lanes;  // in memory
+using LanesAnywhere [[gnu::aligned(4), gnu::may_alias]] = Lanes;  // In memory, without vector alignment
 using Words = std::int32_t __attribute__((vector_size(4 * kLanes)));
 using Shorts = std::uint16_t __attribute__((vector_size(2 * kLanes)));
 // NOLINTEND(misc-definitions-in-headers)
 static_assert(kScaleSpaceLanes % kBlock == 0);
 
-// Not memcpy: for arm64 GCC takes that through the stack.
+// A cast instead of memcpy: GCC copies through the stack for memcpy on arm64.
 inline void load(Lanes& value, const float* from) { value = *reinterpret_cast<const LanesAnywhere*>(from); }
 inline void store(float* to, const Lanes& value) { *reinterpret_cast<LanesAnywhere*>(to) = value; }
 
-/// Sums of kBlock neighbouring pixels: written out, so that they live in registers at any level of optimisation.
+/// Sums of kBlock neighbouring pixels. The four vectors are separate members so that they stay in registers at any
+/// level of optimisation.
 struct Block {
   Lanes a, b, c, d;
 
@@ -77,7 +78,8 @@ struct Block {
   }
 };
 
-/// `row` with its ends carried on to both sides; gives where its first pixel is.
+/// Copies `row` to the scratch buffer with its edge pixels repeated at both ends; returns the position of its first
+/// pixel.
 inline const float* pad(const BlurTask& task, const float* row) {
   float* const begin = task.padded + task.radius;
   __builtin_memcpy(begin, row, sizeof(float) * static_cast<unsigned>(task.width));
@@ -96,7 +98,7 @@ inline void blur_along_row(const BlurTask& task, const float* row, float* out) {
   }
 }
 
-/// Rows blurred along themselves are kept in a ring just long enough: they stay in the nearest caches.
+/// Number of rows in the ring of horizontally blurred rows. It is the least possible, so that the ring fits the caches.
 inline int ring_size(const BlurTask& task) { return 2 * task.radius + 1; }
 
 inline float* ring_row(const BlurTask& task, int place) { return task.rows + static_cast<long>(place) * task.stride; }
@@ -109,7 +111,7 @@ inline void blur_across_rows(const BlurTask& task, int y) {
   for (int x = 0; x < task.width; x += kBlock) {
     Block sum;
     sum.begin(ring_row(task, place) + x, task.weights[0]);
-    int above = place, below = place;  // beyond the image they stay at its edge
+    int above = place, below = place;  // Beyond the image, both stay at its edge row
     for (int i = 1; i <= task.radius; ++i) {
       if (y - i >= 0) above = above == 0 ? size - 1 : above - 1;
       if (y + i < task.height) below = below + 1 == size ? 0 : below + 1;
@@ -129,7 +131,7 @@ inline void blur_image(const BlurTask& task) {
   }
 }
 
-/// One bit for each lane that is set.
+/// Returns one bit for each lane of `mask` that is set.
 inline unsigned bits(const Words& mask) {
 #if defined(__AVX2__)
   return static_cast<unsigned>(__builtin_ia32_movmskps256((Lanes)mask));
@@ -144,7 +146,7 @@ inline unsigned bits(const Words& mask) {
 #endif
 }
 
-/// The largest and the smallest of what was offered, lane by lane.
+/// The largest and the smallest of the offered values, lane by lane.
 struct Limits {
   Lanes high, low;
 

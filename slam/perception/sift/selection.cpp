@@ -14,7 +14,7 @@ float between_rad(float a_rad, float b_rad) {
   return std::min(apart_rad, 2.0F * std::numbers::pi_v<float> - apart_rad);
 }
 
-/// By way of doubles: that of floats has other last bits on arm64 than on x86.
+/// Uses doubles: the last bits of atan2 for floats differ between arm64 and x86.
 float angle_rad(float x, float y) {
   return static_cast<float>(std::atan2(static_cast<double>(y), static_cast<double>(x)));
 }

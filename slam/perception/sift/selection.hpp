@@ -6,26 +6,27 @@
 
 namespace azimuth {
 
-/// Chooses the features of an image: strong ones, since those are found again, from all around the robot, since
-/// bearings that lie on one side say little about its position.
+/// Selects the features of an image. Strong key points are preferred, since they are found again. They must come from
+/// all around the robot, since bearings from one side constrain its position poorly.
 ///
-/// Going from the strongest to the weakest, a key point is chosen unless a sector's worth of azimuth about it holds its
-/// share of the target already; what room that leaves goes to the strongest of the others. Sectors are about each key
-/// point and not fixed in the image, so that a turn of the robot changes nothing. Nor does the order of the key points.
+/// From the strongest to the weakest, a key point is chosen unless the sector of azimuths centred on it already holds
+/// its share of the target count. Remaining places go to the strongest of the other key points. Sectors are centred on
+/// each key point and not fixed in the image, so the choice does not depend on the robot's heading, nor on the order of
+/// the key points.
 ///
 /// Thread contract: thread-bound. Nothing allocates in the steady state.
 class FeatureSelection {
  public:
-  /// `centre_px`: of the optical axis, along x and along y of the working image.
+  /// `centre_px`: coordinate of the optical axis in the working image, the same along x and y.
   FeatureSelection(const SiftSettings& settings, double centre_px);
 
-  /// Leaves at most target_count of them, strongest first.
+  /// Keeps at most target_count key points, strongest first.
   void select(std::vector<KeyPoint>& key_points);
 
  private:
   struct Candidate {
     KeyPoint point;
-    float azimuth_rad = 0.0F;  ///< in the image
+    float azimuth_rad = 0.0F;  ///< In the image
   };
 
   void order(const std::vector<KeyPoint>& key_points);

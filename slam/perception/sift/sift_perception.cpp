@@ -19,11 +19,11 @@ std::unique_ptr<FeatureFinder> make_finder(const SiftSettings& settings) {
 }
 
 std::optional<CameraModel> model_of(const CameraRig& rig) {
-  std::string ignored;  // a rig that knows nothing of elevations will do
+  std::string ignored;  // A rig without elevations is permitted
   return camera_of(rig, ignored);
 }
 
-/// To the rim; where the rig does not say, to the farthest edge of the image.
+/// Radius of the disc to process: to the mirror's rim, or to the farthest image edge if the rig does not give the rim.
 double disc_radius_px(const CameraRig& rig, const ImageAxes& axes, int width_px, int height_px) {
   const double u = axes.centre_px.x(), v = axes.centre_px.y(), last_v = (height_px - 1) / axes.beta;
   const double farthest_px = std::max({u, width_px - 1 - u, v, last_v - v, 1.0});
@@ -71,7 +71,7 @@ Bearing SiftPerception::bearing(const KeyPoint& point) const {
   const double from_centre_px =
       std::max(1.0, hypotenuse(point.x_px - square_.middle_px(), point.y_px - square_.middle_px()));
   Bearing bearing;
-  // Without a tilt, azimuths need no more than the image's axes.
+  // Without a tilt, azimuths need only the image's axes.
   const PolarPixel polar = square_.axes.polar(camera_ ? camera_->level_pixel(pixel).value_or(pixel) : pixel);
   bearing.azimuth_rad = polar.azimuth_rad;
   bearing.radius_px = polar.radius_px;
@@ -81,7 +81,7 @@ Bearing SiftPerception::bearing(const KeyPoint& point) const {
   const auto direction = camera_->direction(pixel);
   if (!direction) return bearing;
   bearing.elevation_rad = direction->elevation_rad;
-  // Among features no filter estimates a tilt (SPEC VI.34): what the rig says of it is noise.
+  // No filter estimates a tilt from features (mathematics VI.34), so the rig's tilt uncertainty counts as noise.
   if (const double sigma_tilt_rad = rig_.sigma_tilt_rad.value_or(0.0); sigma_tilt_rad > 0.0)
     bearing.sigma_rad =
         hypotenuse(bearing.sigma_rad, std::sqrt(azimuth_variance_by_tilt(sigma_tilt_rad, direction->elevation_rad)));

@@ -13,26 +13,26 @@
 
 namespace azimuth {
 
-/// Features of a room seen through a mirror or fisheye (SPEC I.12): bearings with descriptors and neighbours, and with
-/// elevations where the rig's model of the camera knows them. Identities are for others to find.
+/// Finds features of a room seen through a mirror or fisheye lens (mathematics I.12). The bearings have descriptors and
+/// neighbours, and elevations if the rig's camera model knows them. Identities are assigned later, by data association.
 ///
-/// Where the rig does not say how large images are, one of another size than the last starts over, at the cost of the
-/// tables that depend on it; else it is unreadable.
+/// If the rig does not give the image size, an image of a new size makes this class rebuild the tables that depend on
+/// the size. If the rig gives the size, an image of another size is unreadable.
 ///
-/// Thread contract: as Perception's.
+/// Thread contract: that of Perception.
 class SiftPerception final : public Perception {
  public:
   SiftPerception(const CameraRig& rig, const SiftSettings& settings);
 
   void observe(const ImageView& image, BearingSet& out) override;
 
-  /// Of the last image, in the order of its bearings, in the working image.
+  /// The key points of the last image in the working image, in the order of its bearings.
   const std::vector<KeyPoint>& key_points() const { return key_points_; }
   const WorkingSquare& working_square() const { return square_; }
   const Plane<std::uint16_t>& working_image() const { return image_; }
 
  private:
-  /// What depends on the size of the camera's images.
+  /// The parts that depend on the size of the camera's images.
   struct Layout {
     WorkingImage image;
     VisibleRegion region;

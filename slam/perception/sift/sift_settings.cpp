@@ -4,8 +4,8 @@ namespace azimuth {
 
 SiftSettings paper_sift_preset() {
   SiftSettings paper;
-  paper.max_octaves = 7;        // 480 to 7 pixels
-  paper.scales_per_octave = 2;  // 5 images: neighbouring ones a factor of sqrt 2 apart
+  paper.max_octaves = 7;        // From 480 to 7 pixels
+  paper.scales_per_octave = 2;  // 5 images; neighbouring ones differ by a factor of sqrt 2.
   paper.first_sigma_px = 2.4;
   paper.contrast = 0.10;
   paper.contrast_light = 0.0;

@@ -4,55 +4,56 @@
 namespace azimuth {
 
 enum class SiftDetector : std::uint8_t {
-  azimuth,  ///< our own
-  opencv    ///< OpenCV's with its own orientations, as a reference; allocates for each image
+  azimuth,  ///< The built-in SIFT
+  opencv    ///< OpenCV's SIFT with its own orientations, as a reference; allocates for each image.
 };
 
-/// The axes that a descriptor is measured along.
+/// The axes along which a descriptor is measured.
 enum class DescriptorFrame : std::uint8_t {
-  radial,  ///< away from the optical axis and across: a turn of the robot changes nothing
-  image    ///< those of the image: descriptors do not match once the robot has turned (paper)
+  radial,  ///< Along and across the radius from the optical axis: descriptors do not depend on the robot's heading.
+  image    ///< The axes of the image: descriptors do not match after the robot has turned (as in the paper).
 };
 
-/// How key points are found, chosen and described (SPEC I.12). Pixels are those of the working image, intensities reach
-/// from 0 to 1. The defaults measured best in rendered and ray-traced rooms; paper_sift_preset() is what the paper
-/// prints.
+/// How key points are found, selected and described (mathematics I.12). Pixels are those of the working image;
+/// intensities range from 0 to 1. paper_sift_preset() gives the values printed in the paper.
 struct SiftSettings {
   SiftDetector detector = SiftDetector::azimuth;
 
-  // The working image.
-  int side_px = 480;  ///< the mirror's disc is shrunk to a square of at most this size; 0: never
+  // Working image.
+  int side_px = 480;  ///< The mirror's disc is reduced to a square of at most this size; 0: no limit.
 
   // Scale space.
-  int max_octaves = 4;           ///< each half the size of the one before, down to 4 x 4 pixels
-  int scales_per_octave = 4;     ///< in which extrema are sought; an octave has three more images
-  double first_sigma_px = 1.6;   ///< blur of an octave's first image, in its own pixels
-  double camera_sigma_px = 0.5;  ///< blur that the working image has already
+  int max_octaves = 4;           ///< Each octave has half the size of the previous one, down to 4 x 4 pixels
+  int scales_per_octave = 4;     ///< Scales that are searched for extrema; an octave has three more images.
+  double first_sigma_px = 1.6;   ///< Blur of an octave's first image, in its own pixels
+  double camera_sigma_px = 0.5;  ///< Blur that the working image already has
 
   // Which extrema are key points.
-  double contrast = 0.018;        ///< least absolute difference of Gaussians at the extremum
-  double contrast_light = 0.36;   ///< mean intensity below which that falls with the light; 0: it does not (paper)
-  double curvature_ratio = 10.0;  ///< edges are refused: larger over smaller principal curvature, at most
-  double clearance_sigmas = 3.0;  ///< least distance from anything hidden, in multiples of the key point's scale
+  double contrast = 0.018;        ///< Least absolute difference of Gaussians at the extremum
+  double contrast_light = 0.36;   ///< Mean intensity below which `contrast` is reduced in proportion; 0: never (paper).
+  double curvature_ratio = 10.0;  ///< Greatest ratio of the two principal curvatures; edges have greater ratios
+  double clearance_sigmas = 3.0;  ///< Least distance to a hidden pixel, in multiples of the key point's scale
 
-  // How many of them.
-  int target_count = 90;  ///< features in an image at most; 0: all
-  int sectors = 30;       ///< of azimuth, between which features are shared out evenly; 1: the strongest anywhere
+  // How many key points are kept.
+  int target_count = 90;  ///< Greatest number of features in an image; 0: no limit.
+  /// Number of azimuth sectors over which features are evenly distributed; 1: the strongest features are kept, wherever
+  /// they are.
+  int sectors = 30;
 
   // Descriptor.
   DescriptorFrame frame = DescriptorFrame::radial;
-  double subregion_sigmas = 3.5;   ///< side of one of the 4 x 4 subregions, in multiples of the key point's scale
-  double window_subregions = 1.5;  ///< standard deviation of the Gaussian weight about the middle
-  double clip = 0.2;               ///< no component counts more than this in a descriptor of length 1
+  double subregion_sigmas = 3.5;   ///< Side of one of the 4 x 4 subregions, in multiples of the key point's scale
+  double window_subregions = 1.5;  ///< Standard deviation of the Gaussian weight about the middle, in subregions
+  double clip = 0.2;               ///< Greatest component of a descriptor normalised to length 1
 
-  // What a feature's place is worth.
-  double sigma_place_px = 0.2;         ///< standard deviation of a key point's place along one axis, at scale 0
-  double sigma_place_per_scale = 0.1;  ///< and for each pixel of its scale
+  // Standard deviation of a feature's position.
+  double sigma_place_px = 0.2;         ///< Standard deviation of a key point's position along one axis, at scale 0
+  double sigma_place_per_scale = 0.1;  ///< Increase of `sigma_place_px` for each pixel of the key point's scale
 
   friend bool operator==(const SiftSettings&, const SiftSettings&) = default;
 };
 
-/// As printed: 7 octaves of 5 images, sigma 2.4, contrast 0.10, no frame of its own, every key point kept.
+/// The values printed in the paper: 7 octaves of 5 images, sigma 2.4, contrast 0.10, image frame, every key point kept.
 SiftSettings paper_sift_preset();
 
 }  // namespace azimuth

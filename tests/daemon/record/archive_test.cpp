@@ -21,7 +21,7 @@ class ArchiveTest : public testing::Test {
     std::ofstream(file) << std::string(bytes, 'x');
     return file;
   }
-  /// What is deleted, in its order.
+  /// Deletes everything that may be deleted and returns the files in the order of their deletion.
   std::vector<std::string> deleted(Archive& archive) {
     std::vector<std::string> order;
     for (auto before = files(); archive.delete_oldest(); before = files()) {
@@ -50,7 +50,7 @@ TEST_F(ArchiveTest, OldestSessionsFirstOwnLast) {
   const std::string last = "2019-01-01T00-00-00Z/001.lcm";
   make(last);
   Archive archive(folder_.path());
-  archive.scan("2019-01-01T00-00-00Z", {});  // recorded now, by a clock that went back
+  archive.scan("2019-01-01T00-00-00Z", {});  // the current session, from a clock that was set back
   EXPECT_EQ(archive.bytes(), 70U);
   EXPECT_EQ(deleted(archive), in_order);
   EXPECT_EQ(archive.bytes(), 10U);

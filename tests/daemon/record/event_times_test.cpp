@@ -35,7 +35,7 @@ TEST(EventTimes, LiveAreTheClockOfTheStamps) {
   std::int64_t last_us = times.now();
   EXPECT_LE(last_us, (monotonic() + ahead).count());
   for (int i = 0; i < 1000; ++i) {
-    // A stamp that is older than the moment, or of a sender with another clock.
+    // Every other stamp is older than the current time or comes from a sender with another clock.
     const std::int64_t us = i % 2 == 0 ? times.now() : times.of_sample(stamp_from_us(i * 1'000'000'000'000));
     EXPECT_GE(us, last_us + kLeast_us);
     EXPECT_LE(us, std::max((monotonic() + ahead).count(), last_us + kLeast_us));

@@ -16,7 +16,7 @@ using test::Feeder;
 
 constexpr int kWidth_px = 64, kHeight_px = 48;
 
-/// A picture of soft slopes, which differs from image to image; every byte of a yuyv one counts.
+/// A smooth image that differs from the image of every other number. Every byte of a yuyv image counts.
 KeptImage image(std::uint64_t number, PixelFormat pixels) {
   KeptImage kept{.stamp = test::reading(number).stamp, .format = packed_format(pixels, kWidth_px, kHeight_px)};
   kept.bytes.resize(kept.format.bytes());
@@ -186,7 +186,7 @@ TEST_F(FrameRecorderTest, NothingAllocatesOnceStorageHasGrown) {
   EXPECT_EQ(allocations() - before, 0U);
 }
 
-/// How many of a camera's images in 100 s are taken, whose stamps tremble.
+/// The number of a camera's images that are recorded in 100 s, with jitter in the stamps.
 int taken(double camera_hz, double wanted_hz) {
   FramePace pace(wanted_hz);
   int count = 0;

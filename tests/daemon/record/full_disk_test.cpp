@@ -1,4 +1,4 @@
-// A disk that is really full; on_small_disk.sh gives it 4 MB in $AZIMUTH_SMALL_DISK.
+// Recording to a disk that is really full. on_small_disk.sh provides a file system of 4 MB in $AZIMUTH_SMALL_DISK.
 
 #include <cstdlib>
 #include <fstream>
@@ -27,7 +27,7 @@ class FullDisk : public testing::Test {
     settings.min_free_mb = min_free_mb;
     return settings;
   }
-  /// Something else that takes the disk.
+  /// Fills the disk with a file that is not a recording.
   void fill(const std::string& name, double megabytes) const {
     std::ofstream(disk_ / name) << std::string(static_cast<std::size_t>(megabytes * 1e6), 'x');
   }

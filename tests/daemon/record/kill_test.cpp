@@ -1,4 +1,4 @@
-// kill -9 at any instant: what is on the disk is whole up to the last flush, and replays.
+// A recorder killed by SIGKILL at any instant leaves a log that is complete up to the last flush and can be replayed.
 
 #include <atomic>
 #include <csignal>
@@ -17,9 +17,9 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr int kKills = 200;
-constexpr std::uint64_t kLongestLife = 4000;  // readings
+constexpr std::uint64_t kLongestLife = 4000;  // number of readings
 
-/// A number that parent and child both see.
+/// A number shared by the parent and the child process.
 class SharedCount {
  public:
   SharedCount()
@@ -42,7 +42,8 @@ class SharedCount {
   }
 }
 
-/// Lets a child record until it has been fed about `life` readings, kills it, and says how many it had been fed.
+/// Lets a child process record until it has been fed about `life` readings, and kills it. Returns the number of
+/// readings it was fed.
 std::uint64_t readings_until_killed(const RecordSettings& settings, std::uint64_t life) {
   SharedCount fed;
   const pid_t child = ::fork();
@@ -63,14 +64,14 @@ TEST(Kill, LosesLessThanASecondAndNothingBefore) {
     RecordSettings settings;
     settings.folder = folder.path();
     settings.min_free_mb = 0.0;
-    settings.max_file_mb = kill % 2 == 0 ? 0.02 : 256.0;  // half of them are killed amid changes of segments
+    settings.max_file_mb = kill % 2 == 0 ? 0.02 : 256.0;  // every other log changes segments often
     const std::uint64_t fed = readings_until_killed(settings, 30 + random() % kLongestLife);
 
     const azimuth::Run run = test::load(test::sessions(folder.path()).back());
     segments += session_segments(test::sessions(folder.path()).back()).size();
     cut_events += run.skipped.damaged_bytes > 0 ? 1 : 0;
     for (std::size_t i = 0; i < run.odometry.size(); ++i) ASSERT_EQ(run.odometry[i], test::reading(i));
-    // The child may have been fed one more than it could tell.
+    // The child may have been fed one reading more than it counted.
     ASSERT_LE(run.odometry.size(), fed + 1);
     ASSERT_GT((run.odometry.size() * test::kReadingInterval) + 1s, fed * test::kReadingInterval);
     ASSERT_EQ(run.rig_toml, test::documents()[0].text);

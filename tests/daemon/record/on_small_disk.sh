@@ -1,6 +1,6 @@
 #!/bin/sh
-# Runs a command with a file system of 4 MB in $AZIMUTH_SMALL_DISK, in a mount namespace of its own: nothing is left of
-# it afterwards. Exit code 77: the system allows no such namespaces.
+# Runs a command with a file system of 4 MB in $AZIMUTH_SMALL_DISK. The file system exists only in the command's own
+# mount namespace and vanishes with it. Exit code 77: the system does not allow such namespaces.
 set -eu
 folder=$(mktemp -d)
 trap 'rmdir "$folder"' EXIT

@@ -1,5 +1,5 @@
 #pragma once
-// A folder for a recorder, and what it holds.
+// A folder for a recorder, and access to its sessions.
 
 #include <filesystem>
 #include <gtest/gtest.h>

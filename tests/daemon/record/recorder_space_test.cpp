@@ -1,4 +1,4 @@
-// Segments of a recording, and disks that are full, small, slow or gone.
+// Segments of a recording, and disks that are full, small, slow or missing.
 
 #include <csignal>
 #include <fstream>
@@ -36,7 +36,7 @@ TEST_F(RecorderTest, SegmentsChangeBySize) {
   EXPECT_GT(segments.size(), 8U);
   for (const SegmentFile& segment : segments) EXPECT_LE(fs::file_size(segment.file), 51'000U);
   expect_readings(test::load(session()), 0, 5000);
-  // Each one is a run by itself.
+  // Each segment is a complete run by itself.
   const azimuth::Run third = test::load(segments[3].file);
   EXPECT_FALSE(third.from_the_start);
   EXPECT_EQ(third.rig_toml, test::documents()[0].text);
@@ -158,7 +158,7 @@ TEST_F(RecorderTest, GoesOnWhenItsFileIsDeleted) {
   EXPECT_GT(run.odometry.size(), 150U);
 }
 
-/// Limits the size of files while it lives; the signal is ignored, as the recorder asks for.
+/// Limits the size of files during its lifetime. The signal SIGXFSZ is ignored, as the recorder requires.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) {

@@ -124,7 +124,8 @@ TEST_F(RecorderTest, FeaturesAreRecordedWithAllThatIsKnown) {
     feeder.feed(1);
     feeder.recorder().bearings(seen);
     feeder.recorder().bearings(dark);
-    feeder.recorder().message("AZIMUTH_FEATURES", std::vector<std::byte>(40));  // the echo of what it had
+    // the echo of the descriptors that `seen` carries
+    feeder.recorder().message("AZIMUTH_FEATURES", std::vector<std::byte>(40));
     EXPECT_EQ(feeder.status().events, 4U);
   }
   const azimuth::Run run = test::load(session());
@@ -149,7 +150,7 @@ TEST_F(RecorderTest, WithoutAFolderNothingHappens) {
 TEST_F(RecorderTest, FlushesInTime) {
   Feeder feeder(settings());
   feeder.feed(1000);
-  // Seen from outside while the recorder is still at work: less than the flush interval is missing.
+  // The log, read while the recorder still runs, misses less than a flush interval.
   const auto missing = 1000 - test::load(session()).odometry.size();
   EXPECT_LE(missing * test::kReadingInterval, 200ms);
 }

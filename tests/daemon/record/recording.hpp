@@ -1,5 +1,5 @@
 #pragma once
-// What the tests of the recorder feed it, and how they read it back.
+// The samples that the tests feed to the recorder, and functions that read them back.
 
 #include <algorithm>
 #include <chrono>
@@ -19,7 +19,7 @@ using namespace std::chrono_literals;
 
 inline constexpr auto kReadingInterval = 10ms;
 
-/// Reading `number` of a robot that drives on; every one differs from every other in all its bits.
+/// Reading `number` of a robot that drives on. Every reading differs from every other in all its numbers.
 inline OdometryReading reading(std::uint64_t number) {
   const auto n = static_cast<double>(number);
   return {.stamp = stamp_from_us(1'700'000'000'000'000 + 10'000 * static_cast<std::int64_t>(number)),
@@ -35,7 +35,7 @@ inline std::vector<Document> documents() {
   return {{"rig.toml", "front_end = \"bearings\"\n"}, {"azimuth.toml", "estimator = \"ekf\"\n"}, {"version", "1.2.3"}};
 }
 
-/// A recorder in virtual time, fed one reading every kReadingInterval.
+/// A recorder in virtual time, fed with one reading every kReadingInterval.
 class Feeder {
  public:
   explicit Feeder(const RecordSettings& settings, EventTimes times = EventTimes::of_recording(Stamp{}))
@@ -43,7 +43,7 @@ class Feeder {
     recorder_.turn(now_);
   }
 
-  /// The next `count` readings, and a bearing set with every tenth.
+  /// Feeds the next `count` readings, and a bearing set with every tenth of them.
   void feed(std::uint64_t count) {
     for (const std::uint64_t end = next_ + count; next_ < end; ++next_) {
       recorder_.odometry(reading(next_));
@@ -52,11 +52,11 @@ class Feeder {
       recorder_.turn(now_);
     }
   }
-  /// Time passes, and nothing comes.
+  /// Lets time pass without samples.
   void wait(std::chrono::milliseconds duration) {
     for (const auto end = now_ + duration; now_ < end;) recorder_.turn(now_ += 100ms);
   }
-  std::uint64_t fed() const { return next_ + (next_ + 9) / 10; }  ///< events so far
+  std::uint64_t fed() const { return next_ + (next_ + 9) / 10; }  ///< Number of events so far
   std::uint64_t readings() const { return next_; }
   Recorder& recorder() { return recorder_; }
   const RecorderStatus& status() const { return recorder_.status(); }

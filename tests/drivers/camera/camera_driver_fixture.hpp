@@ -1,5 +1,5 @@
 #pragma once
-// A camera's driver and its device, in virtual time.
+// A camera driver and its simulated device, in virtual time.
 
 #include <algorithm>
 #include <cerrno>
@@ -23,7 +23,7 @@ class CameraDriverTest : public testing::Test {
     driver_ = std::make_unique<CameraDriver>(settings, device_.opener());
   }
 
-  /// The device sends an image now.
+  /// Lets the device send an image now.
   void send() { device_.images.push_back({Read::image, sequence_++, stamp()}); }
   void send(Read read) { device_.images.push_back({read, sequence_, stamp()}); }
   Stamp stamp() const { return stamp_from_us(std::chrono::duration_cast<Duration>(now_.time_since_epoch()).count()); }
@@ -35,7 +35,8 @@ class CameraDriverTest : public testing::Test {
     std::string event;
     while (driver_->take_event(event)) events_.push_back(event);
   }
-  /// Turns when due, every 10 ms at least, and lets an image come `every` so often.
+  /// Calls the driver when it is due, at least every 10 ms. If `every` is not 0, the device sends an image in each such
+  /// interval.
   void run(Clock::duration time, Clock::duration every = {}) {
     const auto until = now_ + time;
     auto next = now_;
@@ -50,7 +51,7 @@ class CameraDriverTest : public testing::Test {
       if (every.count() > 0) now_ = std::min(now_, next);
     }
   }
-  /// Until `done` or `limit`; the time it took.
+  /// Runs until `done` or `limit` and returns the elapsed time.
   template <class Done>
   Clock::duration run_until(Clock::duration limit, const Done& done) {
     const auto begun = now_;

@@ -60,7 +60,7 @@ TEST_F(CameraDriverTest, ASlowCameraIsNotSilentBetweenItsImages) {
   device_.description.rate_hz = 2.0;
   run(20s, 500ms);
   EXPECT_EQ(state().silences, 0U);
-  run(1400ms);  // the last came half a second ago
+  run(1400ms);  // the last image came half a second ago
   EXPECT_TRUE(is(Connection::running));
   run(200ms);
   EXPECT_TRUE(is(Connection::silent));
@@ -114,9 +114,9 @@ TEST_F(CameraDriverTest, SurvivesUnplugAndReplugManyTimes) {
 TEST_F(CameraDriverTest, AHintThatItWasPluggedInIsFollowedAtOnce) {
   run(1s, 100ms);
   go_away();
-  run(10s);  // the back-off is a second now
+  run(10s);  // the back-off is now 1 s
   come_back();
-  device_.opening = {"/dev/omnicam: open: Permission denied", EACCES};  // udev has not been at it yet
+  device_.opening = {"/dev/omnicam: open: Permission denied", EACCES};  // udev has not yet set the permissions
   driver_->wake(now_);
   EXPECT_EQ(driver_->due_in(now_), 0s);
   run(500ms);

@@ -1,4 +1,4 @@
-// Leases on shared frames: who holds one while others come, go or die.
+// Leases on shared frames: a client holds one while others connect, disconnect or die.
 
 #include <gmock/gmock.h>
 #include <random>
@@ -100,8 +100,8 @@ TEST_F(CameraLink, LeaseFromAnotherThreadWakesTheOwner) {
   EXPECT_TRUE(send_filled(server, 3));
 }
 
-/// Either end dies and comes back at any moment, samples in flight or leased: nothing crashes, nothing leaks, what
-/// arrives is what was sent, and in the end they talk again.
+/// Either end dies and returns at random moments, with samples in flight or leased. Nothing may crash or leak, received
+/// samples must equal the sent ones, and the ends must communicate again afterwards.
 TEST_F(CameraLink, EitherEndMayDieAtAnyMoment) {
   std::mt19937_64 random(7);  // NOLINT(cert-msc51-cpp): the same every time
   const std::size_t descriptors = open_descriptors();
@@ -135,7 +135,7 @@ TEST_F(CameraLink, EitherEndMayDieAtAnyMoment) {
         Frame& frame = held[random() % held.size()];
         if (camera->take(frame)) {
           ++received;
-          // Nothing can be said of pixels of a connection that has ended, but they can be read.
+          // The pixels of a closed connection are undefined, but they can still be read.
           if (camera->state().connected) {
             ASSERT_THAT(frame.bytes(), Each(static_cast<std::byte>(to_us(frame.stamp))));
           }

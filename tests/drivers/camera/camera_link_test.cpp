@@ -207,7 +207,7 @@ TEST_F(CameraLink, StaleSocketIsReplacedALiveOneAndAFileAreNot) {
   const pid_t child = ::fork();
   if (child == 0) {
     const CameraServer server = serve(path());
-    ::_exit(0);  // as if killed: nothing is cleaned up
+    ::_exit(0);  // ends without clean-up, as if killed
   }
   int status = 0;
   ASSERT_EQ(::waitpid(child, &status, 0), child);

@@ -1,4 +1,4 @@
-// Opening a camera that is away, answers in vain, takes its time or is not what was asked for, in virtual time.
+// Opening a camera that is absent, fails, is slow or has other properties than requested, in virtual time.
 
 #include "tests/drivers/camera/camera_driver_fixture.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// A camera in virtual time: what its streams do is written down beforehand.
+// A camera in virtual time, whose streams follow a script.
 
 #include <deque>
 #include <functional>
@@ -13,15 +13,15 @@
 
 namespace azimuth::test {
 
-/// One thing that read() comes upon.
+/// One result of read().
 struct FakeImage {
   ImageStream::Read read = ImageStream::Read::image;
   std::uint64_t sequence = 0;
   Stamp stamp{};
 };
 
-/// The device behind the streams; at most one of them is open. Who opens on another thread than reads holds the mutex
-/// to look at or change anything but the images.
+/// The device behind the streams, of which at most one is open. If opening runs on another thread than reading, access
+/// to everything except `images` requires the mutex.
 struct FakeCameraDevice {
   std::mutex mutex;
   StreamDescription description{.device = "/dev/omnicam",
@@ -30,8 +30,8 @@ struct FakeCameraDevice {
                                 .rate_hz = 10.0,
                                 .usb_port = "1-2",
                                 .refused = {}};
-  CameraTrouble opening{};     // given instead of a stream, when it has a text or `still_opening`
-  bool still_opening = false;  // the opener is at work
+  CameraTrouble opening{};     // returned instead of a stream if it has a text
+  bool still_opening = false;  // opening is still in progress
   CameraTrouble failure{"/dev/omnicam: VIDIOC_DQBUF: Input/output error", 5};
   std::deque<FakeImage> images;
   int opened = 0, open_now = 0;
@@ -41,7 +41,7 @@ struct FakeCameraDevice {
 
 class FakeStream final : public ImageStream {
  public:
-  static constexpr int kDescriptor = -2;  // poll(2) passes over it
+  static constexpr int kDescriptor = -2;  // poll(2) ignores it
 
   explicit FakeStream(FakeCameraDevice& device) : device_(device), description_(device.description) {
     ++device_.opened;

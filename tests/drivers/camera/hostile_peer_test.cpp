@@ -1,4 +1,4 @@
-// What comes over the socket is not believed, whoever listens or connects there.
+// Neither end of the socket may trust the messages of its peer.
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -35,7 +35,7 @@ UniqueFd memory(std::size_t bytes, int seals) {
 }
 constexpr int kFixedSize = F_SEAL_SHRINK | F_SEAL_GROW;
 
-/// A server that says whatever the test likes.
+/// A server that sends any message that a test requires.
 class HostileServer : public CameraLink {
  protected:
   HostileServer() : listener_(camera_link::listen_at(path(), error_)), camera_(path()) { connect(); }

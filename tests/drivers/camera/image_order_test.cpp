@@ -13,7 +13,7 @@ using Clock = ImageOrder::Clock;
 
 constexpr Clock::time_point at(std::int64_t us) { return Clock::time_point{std::chrono::microseconds(us)}; }
 
-/// An image that arrives 5 ms after its stamp.
+/// Judges an image that arrives 5 ms after its stamp.
 ImageOrder::Verdict usual(ImageOrder& order, std::uint64_t sequence, std::int64_t stamp_us) {
   return order.judge(sequence, stamp_from_us(stamp_us), at(stamp_us + 5'000));
 }

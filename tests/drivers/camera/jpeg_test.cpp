@@ -20,7 +20,7 @@ namespace {
 
 using Buffer = std::vector<std::byte>;
 
-/// Soft colours, as JPEG keeps them well: red grows with u, green with v, blue falls with both.
+/// Smooth colours, which JPEG reproduces well: red grows with u, green with v, blue falls with both.
 struct Picture {
   explicit Picture(PixelFormat pixels, int width_px = 67, int height_px = 45, int padding = 0)
       : format(packed_format(pixels, width_px, height_px)) {
@@ -68,7 +68,7 @@ Buffer file_content(const std::filesystem::path& file) {
   return {bytes.begin(), bytes.end()};
 }
 
-/// Where the two bytes of a marker stand in a file of ours.
+/// Position of the two bytes of a marker in a file of the encoder.
 std::size_t marker_at(const Buffer& jpeg, int marker) {
   const Buffer bytes{std::byte{0xFF}, static_cast<std::byte>(marker)};
   return static_cast<std::size_t>(std::search(jpeg.begin(), jpeg.end(), bytes.begin(), bytes.end()) - jpeg.begin());
@@ -76,7 +76,7 @@ std::size_t marker_at(const Buffer& jpeg, int marker) {
 constexpr int kFrameMarker = 0xC0, kTablesMarker = 0xC4;
 
 Buffer with_size(Buffer jpeg, int width_px, int height_px) {
-  const std::size_t at = marker_at(jpeg, kFrameMarker) + 5;  // marker, length, precision
+  const std::size_t at = marker_at(jpeg, kFrameMarker) + 5;  // after marker, length and precision
   for (std::size_t i = 0; i < 2; ++i) {
     jpeg[at + i] = static_cast<std::byte>(height_px >> (8 - 8 * i));
     jpeg[at + 2 + i] = static_cast<std::byte>(width_px >> (8 - 8 * i));
@@ -181,7 +181,7 @@ TEST(Jpeg, CutAnywhereIsRefusedUnlessAllPixelsAreThere) {
     const ImageView whole = other.decode(jpeg, pixels);
     for (std::size_t length = 0; length < jpeg.size(); ++length) {
       const ImageView cut = decoder.decode(std::span(jpeg).first(length), pixels);
-      if (length < jpeg.size() - 3) {  // the end marker and a byte that holds a bit or more of the last pixels
+      if (length < jpeg.size() - 3) {  // the end marker, and one byte that holds at least a bit of the last pixels
         EXPECT_TRUE(cut.bytes.empty()) << length << '/' << jpeg.size();
         EXPECT_FALSE(decoder.problem().empty());
       } else if (!cut.bytes.empty()) {
@@ -192,10 +192,10 @@ TEST(Jpeg, CutAnywhereIsRefusedUnlessAllPixelsAreThere) {
   }
 }
 
-/// As a camera may encode it: with a restart marker after each row of blocks, or colours sampled otherwise.
+/// Encoding options of cameras: a restart marker after some rows of blocks, and chroma subsampling.
 struct CameraHabits {
   int rows_to_restart = 0;
-  int across = 1, down = 1;  // samples of brightness for one of colour
+  int across = 1, down = 1;  // luma samples per chroma sample
 };
 Buffer jpeg_of(const Picture& picture, const CameraHabits& habits) {
   jpeg_compress_struct compress{};
@@ -227,7 +227,7 @@ Buffer jpeg_of(const Picture& picture, const CameraHabits& habits) {
   return jpeg;
 }
 
-/// With bytes before each marker of restarts, and before the end.
+/// Inserts bytes before each restart marker and before the end marker.
 Buffer padded(const Buffer& jpeg, std::size_t count, std::byte value) {
   Buffer out;
   for (std::size_t i = 0; i < jpeg.size(); ++i) {
@@ -312,7 +312,7 @@ TEST(Jpeg, BytesAfterTheEndDoNoHarm) {
   jpeg.resize(jpeg.size() + 5000);  // the driver's buffer is larger than the image
   EXPECT_TRUE(decoder.decode(jpeg, PixelFormat::rgb8).readable());
   jpeg = whole;
-  jpeg.insert(jpeg.end(), whole.begin(), whole.begin() + 300);  // and holds what is left of an earlier one
+  jpeg.insert(jpeg.end(), whole.begin(), whole.begin() + 300);  // and still contains parts of an earlier image
   EXPECT_TRUE(decoder.decode(jpeg, PixelFormat::rgb8).readable()) << decoder.problem();
 }
 

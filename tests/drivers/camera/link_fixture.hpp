@@ -1,5 +1,5 @@
 #pragma once
-// A place for sockets, and what both ends of the camera link need in tests.
+// A folder for sockets, and helpers for both ends of the camera link.
 
 #include <chrono>
 #include <cstdint>
@@ -23,7 +23,7 @@ class CameraLink : public ::testing::Test {
   SharedCamera::Clock::time_point now() const { return now_; }
   void pass(std::chrono::milliseconds time) { now_ += time; }
 
-  /// Lets both ends see what the other one did, client first.
+  /// Runs both ends twice, client first, so that each processes the other's messages.
   void settle(CameraServer& server, SharedCamera& camera) {
     camera.turn(now_);
     server.turn();
@@ -49,7 +49,7 @@ inline CameraServer serve(const std::filesystem::path& path, const CameraServer:
   return *std::move(server);
 }
 
-/// Fills a slot with a value and sends it; false: skipped.
+/// Fills a slot with a value and sends it; false: no slot was free and the image is skipped.
 inline bool send_filled(CameraServer& server, std::uint8_t value, Stamp stamp = {}) {
   const std::span<std::byte> room = server.next_frame();
   if (room.empty()) return false;

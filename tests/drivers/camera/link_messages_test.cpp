@@ -35,7 +35,7 @@ bool same(const BearingSet& a, const BearingSet& b) {
   return a.stamp == b.stamp && a.sequence == b.sequence && std::ranges::equal(a.bearings, b.bearings, equal);
 }
 
-/// Every decoder looks at the bytes; whatever is accepted must be within bounds.
+/// Passes the bytes to every decoder. Accepted messages must have valid values.
 bool anything_accepted(Bytes message) {
   bool accepted = false;
   if (const auto hello = decode_hello(message)) accepted = is_valid(*hello);

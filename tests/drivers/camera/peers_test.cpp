@@ -1,4 +1,4 @@
-// Who may be at the other end of the camera's socket.
+// Access control at the camera's socket.
 
 #include <gmock/gmock.h>
 #include <grp.h>
@@ -24,10 +24,10 @@ mode_t mode_of(const std::filesystem::path& file) {
   return status.st_mode & 0777U;
 }
 
-/// A process of another user at the other end, for as long as the test lasts.
+/// A process of another user at the other end, alive until the end of the test.
 class OtherUser {
  public:
-  /// Does `act` as `uid` of `gid`, says that it has, and waits.
+  /// Runs `act` as user `uid` and group `gid`, signals completion, and waits.
   template <class Act>
   OtherUser(uid_t uid, gid_t gid, Act act) {
     int ends[2];

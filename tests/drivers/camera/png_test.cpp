@@ -26,7 +26,7 @@ Values values(const ImageView& image) {
   return out;
 }
 
-/// What comes of a file; empty: it is refused.
+/// The decoded pixels of a file; empty if the decoder rejects it.
 Values decoded(const Buffer& png, PixelFormat pixels) {
   PngDecoder decoder;
   const ImageView image = decoder.decode(png, pixels);
@@ -55,7 +55,7 @@ TEST(Png, PixelsComeWithoutLoss) {
   EXPECT_EQ(decoded(colour_png(), PixelFormat::bgr8), (Values{50, 100, 200, 3, 2, 1}));
 }
 
-/// A text that zlib packs to a thousandth, as often as libpng's own bounds allow and more.
+/// Compressed texts that expand a thousandfold, up to and beyond libpng's own limits, must not be expanded.
 TEST(Png, TextsAreNotUnpacked) {
   std::vector<std::uint8_t> zeros(7'000'000), text{'a', 0, 0};
   uLongf size = compressBound(zeros.size());
@@ -72,7 +72,7 @@ TEST(Png, TextsAreNotUnpacked) {
 }
 
 TEST(Png, WhatPixelsNeedIsKept) {
-  // A palette with one colour that is transparent, before which stands a text.
+  // A palette with one transparent colour, after a text chunk.
   const Buffer png = PngFile(2, 1, 8, PngColour::palette)
                          .chunk("tEXt", {'a', 0, 'b'})
                          .chunk("PLTE", {10, 20, 30, 40, 50, 60})
@@ -95,7 +95,7 @@ TEST(Png, EveryDepth) {
   EXPECT_EQ(decoded(PngFile(4, 1, 2, PngColour::gray).pixels({0, 0b00011011}).end(), PixelFormat::gray8),
             (Values{0, 85, 170, 255}));
   EXPECT_EQ(decoded(PngFile(2, 1, 4, PngColour::gray).pixels({0, 0x0F}).end(), PixelFormat::gray8), (Values{0, 255}));
-  // The value of a camera with 16 bits is scaled, not bent for a screen.
+  // 16-bit values are scaled linearly, without gamma correction.
   EXPECT_EQ(
       decoded(PngFile(3, 1, 16, PngColour::gray).pixels({0, 0, 0, 0x40, 0x40, 0xFF, 0xFF}).end(), PixelFormat::gray8),
       (Values{0, 64, 255}));
@@ -105,7 +105,8 @@ TEST(Png, PalettesInterlacedRowsAndWhatIsTransparent) {
   EXPECT_EQ(decoded(PngFile(2, 1, 8, PngColour::palette).chunk("PLTE", {9, 8, 7, 50, 60, 70}).pixels({0, 1, 0}).end(),
                     PixelFormat::rgb8),
             (Values{50, 60, 70, 9, 8, 7}));
-  // Of a 2 x 2 image, the first pass has the first pixel, the sixth the one beside it, the seventh the second row.
+  // In a 2 x 2 image, the first pass holds the first pixel, the sixth pass its right neighbour, the seventh the second
+  // row.
   EXPECT_EQ(decoded(PngFile(2, 2, 8, PngColour::gray, true).pixels({0, 1, 0, 2, 0, 3, 4}).end(), PixelFormat::gray8),
             (Values{1, 2, 3, 4}));
   EXPECT_EQ(decoded(PngFile(2, 1, 8, PngColour::gray_alpha).pixels({0, 90, 255, 90, 0}).end(), PixelFormat::gray8),
@@ -116,7 +117,7 @@ TEST(Png, PalettesInterlacedRowsAndWhatIsTransparent) {
 
 TEST(Png, CutAnywhereBeforeItsEndIsRefused) {
   const Buffer whole = grey_png();
-  constexpr std::size_t kLastChunk = 12;  // no pixel is in it
+  constexpr std::size_t kLastChunk = 12;  // it contains no pixels
   PngDecoder decoder;
   for (std::size_t length = 0; length < whole.size() - kLastChunk; ++length) {
     EXPECT_TRUE(decoder.decode(std::span(whole).first(length), PixelFormat::gray8).bytes.empty()) << length;
@@ -166,7 +167,7 @@ TEST(Png, RefusesFormatsThatNeedMoreThanDecoding) {
     EXPECT_EQ(decoded(grey_png(), pixels), Values{}) << name(pixels);
 }
 
-/// The sum of the header's chunk is right again, so that what changed is believed.
+/// The checksum of the header chunk is corrected, so that the decoder uses the changed header.
 TEST(Png, AnyBytesAreSafe) {
   std::mt19937_64 random(1);  // NOLINT(cert-msc51-cpp): the same every time
   const auto value = [&random] { return static_cast<std::uint8_t>(random()); };

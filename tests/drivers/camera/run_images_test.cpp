@@ -11,7 +11,7 @@
 namespace azimuth {
 namespace {
 
-/// A run whose frames are grey images, each darker than the one before.
+/// A run whose frames are grey images, each darker than the previous one.
 class RunImagesTest : public testing::Test {
  protected:
   RunImagesTest() {
@@ -65,7 +65,7 @@ TEST_F(RunImagesTest, ComeAsRecorded) {
   EXPECT_TRUE(std::ranges::equal(jpeg.bytes, std::as_bytes(std::span(expected))));
 }
 
-/// Whatever its name: programs that write PNG into "000000.jpg" exist.
+/// The content decides, not the name: some programs write PNG to "000000.jpg".
 TEST_F(RunImagesTest, PngComesAsPixelsEitherWay) {
   const std::vector<std::byte> png = test::PngFile(2, 1, 8, test::PngColour::gray).pixels({0, 7, 200}).end();
   write("1.jpg", {reinterpret_cast<const char*>(png.data()), png.size()});
@@ -112,7 +112,7 @@ TEST_F(RunImagesTest, FolderAndPipeInPlaceOfAFile) {
 }
 
 TEST_F(RunImagesTest, HugeFileIsNotRead) {
-  std::filesystem::resize_file(folder_ / "1.jpg", kMaxFrameFileBytes + 1);  // sparse
+  std::filesystem::resize_file(folder_ / "1.jpg", kMaxFrameFileBytes + 1);  // a sparse file
   expect_refused("is too large");
 }
 

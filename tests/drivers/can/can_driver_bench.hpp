@@ -13,10 +13,10 @@ namespace azimuth::test {
 
 using namespace std::chrono_literals;
 
-/// What the interface is like, and what waits in its socket.
+/// State of the interface, and the frames that wait in its socket.
 struct FakeBus {
   bool is_there = true, is_up = true;
-  int generation = 0;  // another after each replug
+  int generation = 0;  // changes with each replug
   int opened = 0;
   std::deque<CanReception> waiting;
   CanLink::Counts counts;
@@ -49,9 +49,9 @@ class FakeCanLink final : public CanLink {
 inline CanLayout robot_layout() {
   CanLayout layout = test::ticks_layout();
   layout.battery = CanSignal{test::kRobotId, {0, 16}, CanNumber::unsigned_integer, 0.01};
-  layout.emergency_stop = CanFlagSignal{{test::kRobotId, {16, 8}}, 0x0F, 0x05};
-  layout.bumper = CanFlagSignal{{test::kRobotId, {24, 8}}, 0xF0, {}};
-  layout.charging = CanFlagSignal{{test::kRobotId, {32, 1}}};
+  layout.emergency_stop = CanSignal{test::kRobotId, {16, 3}};
+  layout.bumper = CanSignal{test::kRobotId, {28, 4}};
+  layout.charging = CanSignal{test::kRobotId, {32, 1}};
   return layout;
 }
 

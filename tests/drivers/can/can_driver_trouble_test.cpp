@@ -1,4 +1,4 @@
-// What the driver does when interface, adapter, bus or base fail.
+// Behaviour of the driver when interface, adapter, bus or base fail.
 
 #include <cerrno>
 #include <deque>

@@ -10,7 +10,7 @@ namespace {
 
 using Octets = std::vector<std::uint8_t>;
 
-/// struct can_frame as it stands in memory of a little-endian machine.
+/// The memory of a struct can_frame on a little-endian machine.
 Octets classic(std::uint32_t id_word, std::uint8_t length, Octets data) {
   Octets bytes{static_cast<std::uint8_t>(id_word),
                static_cast<std::uint8_t>(id_word >> 8U),

@@ -35,7 +35,7 @@ TEST(CanLayout, FindsSignalsInADbcFile) {
   const Dbc dbc = shipped_dbc();
   CanSettings settings = ticks_by_dbc();
   settings.battery = "Power.Voltage";
-  settings.emergency_stop = {"Wheels.EmergencyStop", 1, 0};
+  settings.emergency_stop = "Wheels.EmergencyStop";
   settings.right_reversed = true;
   const FileResult<CanLayout> layout = find_can_layout(settings, &dbc);
   ASSERT_TRUE(layout) << text(layout.error());
@@ -45,8 +45,7 @@ TEST(CanLayout, FindsSignalsInADbcFile) {
   EXPECT_DOUBLE_EQ(layout->motion[1].unit, -1.0 / 20000);
   EXPECT_DOUBLE_EQ(layout->motion[0].fastest_per_s, 2.2 + 6.3 * 0.2);
   EXPECT_EQ(layout->battery, dbc.find("Power.Voltage")->signal);
-  EXPECT_EQ(layout->emergency_stop->mask, 1U);
-  EXPECT_EQ(layout->emergency_stop->value, 0U);
+  EXPECT_EQ(layout->emergency_stop, dbc.find("Wheels.EmergencyStop")->signal);
   EXPECT_FALSE(layout->bumper);
   EXPECT_THAT(layout->ids(), ElementsAre(CanId{385, false}, CanId{386, false}));
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The CAN odometer at a base that drives.
+// The CAN odometer on a base that drives.
 
 #include <chrono>
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 inline constexpr Duration kEpochMinusMonotonic = 1'000'000s;
 inline constexpr auto kCycle = 20ms;
 
-/// A base, an odometer, and what came of the two.
+/// A base, an odometer, and the odometer's readings.
 class OdometerBench {
  public:
   explicit OdometerBench(const CanLayout& of_base, const CanSettings& settings = {})
@@ -44,7 +44,7 @@ class OdometerBench {
       send();
     }
   }
-  /// Unheard.
+  /// The base drives without sending frames.
   void go(double left_m_s, double right_m_s, DeviceClock::duration time = kCycle) {
     now += time;
     base.drive(left_m_s, right_m_s, in_seconds(time));

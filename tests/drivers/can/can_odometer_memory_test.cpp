@@ -1,4 +1,4 @@
-// What one process leaves to the next of a base on a CAN bus.
+// The odometer's memory from one process to the next, for a base on a CAN bus.
 
 #include <gtest/gtest.h>
 #include <limits>
@@ -17,7 +17,7 @@ using test::drive_a_course;
 using test::FakeBase;
 using test::OdometerBench;
 
-/// The process after that of `before`: as far as it knows, at the same base.
+/// The process after that of `before`. It assumes the same base.
 std::unique_ptr<OdometerBench> next_process(const OdometerBench& before, const CanLayout& layout) {
   auto next = std::make_unique<OdometerBench>(layout);
   OdometerMemory memory;
@@ -33,7 +33,7 @@ TEST(CanOdometerMemory, LetsTheNextProcessGoOnAndLosesNoMotion) {
     OdometerBench bench(layout);
     drive_a_course(bench);
     const auto next = next_process(bench, layout);
-    for (int i = 0; i < 100; ++i) next->go(0.4, 0.5);  // with nobody there
+    for (int i = 0; i < 100; ++i) next->go(0.4, 0.5);  // no process listens
     next->run(0.4, 0.5, 1s);
     ASSERT_FALSE(next->readings.empty());
     EXPECT_EQ(next->readings.front().origin, bench.readings.back().origin);

@@ -44,7 +44,7 @@ TEST(CanOdometer, TicksInTwoFramesGiveAReadingWhenBothAreThere) {
 TEST(CanOdometer, StaggeredFramesGiveNoFalseTurn) {
   OdometerBench bench(test::ticks_layout());
   bench.second_frame_later = 0ms;
-  for (int i = 0; i < 200; ++i) {  // left and right in turns, 10 ms apart, at 1 m/s straight on
+  for (int i = 0; i < 200; ++i) {  // left and right alternate every 10 ms, straight ahead at 1 m/s
     bench.go(1.0, 1.0, 10ms);
     bench.add(bench.base.frames(bench.layout)[static_cast<std::size_t>(i % 2)], bench.now);
   }
@@ -57,7 +57,7 @@ TEST(CanOdometer, ALostFrameOfOneWheelLeavesNoShift) {
   bench.send();
   bench.run(1.0, 1.0, 1s);
   bench.go(1.0, 1.0);
-  bench.add(bench.base.frames(bench.layout)[1], bench.now);  // the left one is lost
+  bench.add(bench.base.frames(bench.layout)[1], bench.now);  // the left frame is lost
   bench.run(1.0, 1.0, 1s);
   for (const OdometryReading& reading : bench.readings) EXPECT_NEAR(reading.T_odom_body.heading_rad, 0.0, 0.002);
   EXPECT_LT(bench.distance_from_truth_m(), 0.001);
@@ -76,7 +76,7 @@ TEST(CanOdometer, NarrowCountersWrapAgainAndAgain) {
 TEST(CanOdometer, SpeedsAreIntegratedByTheirStamps) {
   OdometerBench bench(test::speeds_layout());
   drive_a_course(bench);
-  // Where the speed changes at once, the trapezium is off by half a cycle.
+  // After a sudden change of speed the trapezoidal rule is wrong by half a cycle.
   EXPECT_LT(bench.distance_from_truth_m(), 0.05);
   EXPECT_NEAR(bench.pose().heading_rad, bench.base.pose().heading_rad, 0.05);
   EXPECT_EQ(bench.odometer.gaps(), 0U);
@@ -84,7 +84,7 @@ TEST(CanOdometer, SpeedsAreIntegratedByTheirStamps) {
 
 TEST(CanOdometer, PosesOfTheBaseAreFollowedFromTheFirst) {
   OdometerBench bench(test::pose_layout());
-  bench.base.drive(0.3, 0.5, 2.0);  // before we listen: its heading is not 0
+  bench.base.drive(0.3, 0.5, 2.0);  // before the odometer listens, so that the heading is not 0
   const Pose2 start = bench.base.pose();
   drive_a_course(bench);
   const Pose2 truth = inverse(start) * bench.base.pose();
@@ -97,7 +97,7 @@ TEST(CanOdometer, PosesOfTheBaseAreFollowedFromTheFirst) {
 
 TEST(CanOdometer, HeadingsMayWrapAtTheirBits) {
   CanLayout layout = test::pose_layout();
-  // 10 bits of 0.01 rad: the counter wraps at 10.24 rad, not at a turn.
+  // 10 bits of 0.01 rad: the counter wraps at 10.24 rad, not at a full turn.
   layout.motion[2] = {{test::kPoseId, {32, 10, CanByteOrder::intel}, CanNumber::unsigned_integer, 0.01}, 1.0, 6.3};
   OdometerBench bench(layout);
   for (int i = 0; i < 2000; ++i) {

@@ -1,4 +1,4 @@
-// Readings of a base that falls silent, restarts, or sends what cannot be.
+// Readings of a base that falls silent, restarts, or sends impossible values.
 
 #include <gtest/gtest.h>
 #include <limits>

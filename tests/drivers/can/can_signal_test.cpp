@@ -1,4 +1,4 @@
-// Signals against values worked out by hand, and against a reading bit by bit.
+// Compares signals with values computed by hand and with a bit-by-bit decoder.
 
 #include "drivers/can/can_signal.hpp"
 
@@ -28,8 +28,8 @@ CanSignal signal_of(CanBits bits, CanNumber number = CanNumber::unsigned_integer
   return {{0x123, false}, bits, number, scale, offset};
 }
 
-/// The number's bits one by one, by their places in the frame: Intel goes up by one, Motorola down within a byte and on
-/// to the highest of the next.
+/// Decodes the number bit by bit from its bit positions in the frame. Intel positions increase; Motorola positions
+/// decrease within a byte and continue at the highest bit of the next byte.
 std::optional<std::uint64_t> slowly(const CanBits& bits, const Octets& bytes) {
   std::vector<bool> from_lowest;
   int place = bits.start_bit;
@@ -57,14 +57,14 @@ TEST(CanSignal, ReadsIntelNumbersWorkedOutByHand) {
 }
 
 TEST(CanSignal, ReadsMotorolaNumbersWorkedOutByHand) {
-  // Start: the highest bit. 7|16 is the first two bytes, most significant first.
+  // The start bit is the highest bit. 7|16 covers the first two bytes, most significant first.
   EXPECT_EQ(read_bits({7, 16, kMotorola}, Octets{0x12, 0x34}), 0x1234U);
   EXPECT_EQ(read_bits({7, 24, kMotorola}, Octets{0x12, 0x34, 0x56}), 0x123456U);
   // 3|12: the low half of byte 0, then all of byte 1.
   EXPECT_EQ(read_bits({3, 12, kMotorola}, Octets{0xAB, 0xCD}), 0xBCDU);
   // 5|10: bits 5 to 0 of byte 0 (10 1011), then bits 7 to 4 of byte 1 (1100).
   EXPECT_EQ(read_bits({5, 10, kMotorola}, Octets{0xAB, 0xCD}), 0b10'1011'1100U);
-  // 0|2: the lowest bit of byte 0, then the highest of byte 1.
+  // 0|2: the lowest bit of byte 0, then the highest bit of byte 1.
   EXPECT_EQ(read_bits({0, 2, kMotorola}, Octets{0x01, 0x00}), 2U);
   EXPECT_EQ(read_bits({0, 2, kMotorola}, Octets{0xFE, 0x80}), 1U);
   EXPECT_EQ(read_bits({7, 64, kMotorola}, Octets{1, 2, 3, 4, 5, 6, 7, 8}), 0x0102030405060708U);

@@ -1,5 +1,5 @@
-// The socket on datagrams of another family, for which the kernel does all but the filtering; and on a virtual bus
-// where one can be made.
+// Tests the socket with datagrams of another family, for which the kernel does everything except filtering, and on a
+// virtual bus where one can be created.
 
 #include "drivers/can/can_socket.hpp"
 
@@ -27,7 +27,7 @@ CanFrame frame_of(std::uint32_t number, std::uint8_t first = 0) {
   return frame;
 }
 
-/// A socket and the other end of it.
+/// A socket and its other end.
 class Pair {
  public:
   Pair() {
@@ -124,7 +124,7 @@ TEST(CanSocket, NothingAllocatesWhileFramesCome) {
   EXPECT_EQ(allocations(), before);
 }
 
-/// As the kernel matches: received & mask == wanted & mask.
+/// The kernel's condition: received & mask == wanted & mask.
 bool passes(const std::vector<can_filter>& filters, canid_t word) {
   for (const can_filter& filter : filters)
     if ((word & filter.can_mask) == (filter.can_id & filter.can_mask)) return true;
@@ -159,13 +159,13 @@ TEST(WallClockStamps, SurviveASettingOfTheWallClock) {
     WallClockStamps stamps;
     stamps.look(5000s, DeviceClock::time_point(1000s));
     stamps.note_empty(DeviceClock::time_point(1000s));
-    // The frame comes at 1000.5, the clock is set after it, and we look at 1001.
+    // The frame arrives at 1000.5 s, then the clock is set, and the driver reads at 1001 s.
     stamps.look(5001s + step, DeviceClock::time_point(1001s));
     EXPECT_EQ(stamps.monotonic(5000500ms), DeviceClock::time_point(1000500ms));
-    // This one came after the setting.
+    // This frame arrived after the clock was set.
     EXPECT_EQ(stamps.monotonic(5000800ms + step), DeviceClock::time_point(1000800ms));
     EXPECT_EQ(stamps.replaced(), 0U);
-    // And this one fits neither.
+    // This stamp agrees with neither clock.
     EXPECT_EQ(stamps.monotonic(100s), DeviceClock::time_point(1001s));
     EXPECT_EQ(stamps.replaced(), 1U);
   }
@@ -182,7 +182,7 @@ TEST(WallClockStamps, FollowAClockThatIsSlewed) {
   }
 }
 
-/// A virtual bus of this test's own: only where the kernel has one and lets us make it.
+/// A virtual bus of this test. The test needs a kernel with vcan and the right to create one.
 TEST(CanSocket, OnAVirtualBusTheKernelFilters) {
   const std::string name = "aztest" + std::to_string(::getpid() % 10000);
   const std::string make = "ip link add " + name + " type vcan 2>/dev/null && ip link set " + name + " up";

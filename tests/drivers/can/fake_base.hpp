@@ -1,5 +1,5 @@
 #pragma once
-// A base that drives along a path and tells of it in every way there is.
+// A base that drives along a path and reports it in all supported layouts.
 
 #include <chrono>
 #include <cmath>
@@ -18,7 +18,7 @@ inline constexpr CanId kLeftId{0x181, false}, kRightId{0x182, false}, kPoseId{0x
 inline CanSignal left_ticks(int length_bits) {
   return {kLeftId, {0, length_bits, CanByteOrder::intel}, CanNumber::unsigned_integer};
 }
-/// In the left one's frame, or in one of its own.
+/// In the frame of the left wheel or in a separate frame.
 inline CanSignal right_ticks(CanId frame, int length_bits) {
   return {frame, {32, length_bits, CanByteOrder::intel}, CanNumber::unsigned_integer};
 }
@@ -57,17 +57,17 @@ inline CanFrame empty_frame(CanId id) {
   return frame;
 }
 
-/// Puts a counter's count there, modulo its bits.
+/// Writes a counter value, modulo its number of bits.
 inline void put_count(const CanSignal& signal, double way_m, CanFrame& frame) {
   const auto count = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(way_m * kTicksPerM)));
   const std::uint64_t mask = signal.bits.length_bits == 64 ? ~0ULL : (1ULL << signal.bits.length_bits) - 1;
   write_bits(signal.bits, count & mask, {frame.data.data(), frame.size});
 }
 
-/// Exactly on arcs: wheel ways and pose as functions of time.
+/// A base on exact arcs: wheel paths and pose are functions of time.
 class FakeBase {
  public:
-  /// Drives on, both wheels at even speeds.
+  /// Drives on with constant wheel speeds.
   void drive(double left_m_s, double right_m_s, double time_s) {
     left_speed_m_s_ = left_m_s;
     right_speed_m_s_ = right_m_s;
@@ -78,7 +78,7 @@ class FakeBase {
     right_m_ += right_m_s * time_s;
   }
   const Pose2& pose() const { return pose_; }
-  /// As after it was switched off and on; the pose goes on.
+  /// Resets the counters, as after switching the base off and on; the pose continues.
   void restart() { left_m_ = right_m_ = 0.0; }
   void set_counters(double left_m, double right_m) {
     left_m_ = left_m;

@@ -1,5 +1,5 @@
 #pragma once
-// The DBC file that is shipped, of the base that azimuth-sim plays.
+// The shipped DBC file, which describes the base that azimuth-sim simulates.
 
 #include <fstream>
 #include <gtest/gtest.h>

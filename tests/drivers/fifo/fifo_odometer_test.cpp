@@ -1,4 +1,4 @@
-// Odometry as another program writes it, line by line, and that program as it comes and goes.
+// Odometry from another program, line by line, while that program starts and stops.
 
 #include "drivers/fifo/fifo_odometer.hpp"
 
@@ -52,7 +52,7 @@ class FifoOdometerTest : public testing::Test {
   static void write(const Writer& writer, const std::string& text) {
     ASSERT_EQ(::write(writer.get(), text.data(), text.size()), static_cast<ssize_t>(text.size()));
   }
-  /// A line of a reading taken `age` ago.
+  /// A line for a reading taken `age` ago.
   std::string line(Duration age, double x_m = 0.0) const {
     const auto stamp = std::chrono::duration_cast<Duration>(now_.time_since_epoch()) - age;
     return std::to_string(to_seconds(stamp)) + ',' + std::to_string(x_m) + ",0,0\n";
@@ -63,7 +63,7 @@ class FifoOdometerTest : public testing::Test {
     for (OdometryReading reading; odometer_.take(reading);) readings.push_back(reading);
     return readings;
   }
-  /// Whether poll() would end at once.
+  /// Whether poll() would return at once.
   bool wakes() const {
     pollfd descriptor{odometer_.descriptor(), POLLIN, 0};
     return ::poll(&descriptor, 1, 0) > 0;

@@ -1,4 +1,4 @@
-// The stand-in's image format 7 and its features.
+// Image format 7 and the features of the stand-in.
 
 #include <algorithm>
 

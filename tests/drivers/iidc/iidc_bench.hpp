@@ -1,5 +1,5 @@
 #pragma once
-// A camera on the stand-in, opened.
+// An open camera of the libdc1394 stand-in.
 
 #include <algorithm>
 #include <cstdint>
@@ -35,7 +35,7 @@ class IidcBench : public testing::Test {
     return stream_ != nullptr;
   }
   Read read() { return stream_->read(frame_); }
-  /// All sentences about settings not had, one a line.
+  /// All sentences about refused settings, one per line.
   std::string refused() const {
     std::string all;
     for (const std::string& sentence : stream_->description().refused) all += sentence + "\n";

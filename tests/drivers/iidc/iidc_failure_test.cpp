@@ -1,4 +1,4 @@
-// Whatever libdc1394 says no to, and cameras that go.
+// Failures of any libdc1394 call, and cameras that disappear.
 
 #include <cerrno>
 #include <fcntl.h>
@@ -14,7 +14,7 @@ using testing::HasSubstr;
 
 class IidcFailureTest : public IidcBench {
  protected:
-  /// Everything a camera can be asked.
+  /// Offers and requests every feature of a camera.
   void want_everything() {
     for (int i = DC1394_FEATURE_MIN; i <= DC1394_FEATURE_MAX; ++i) {
       FakeFeature feature;
@@ -29,8 +29,8 @@ class IidcFailureTest : public IidcBench {
     settings_.gamma = "off";
     settings_.rate_hz = 15;
   }
-  /// Opens and reads again and again, each time with the next call failing, until none is left. Each time there is
-  /// either a stream or a reason, and in the end nothing is left open.
+  /// Opens and reads repeatedly; each time the next call fails, until none is left. Each attempt must yield a stream or
+  /// a reason, and must leave nothing open.
   void fail_every_call(int expected_at_least) {
     int failed = 0;
     for (int call = 1;; ++call) {
@@ -132,7 +132,7 @@ TEST_F(IidcFailureTest, ABusWithoutBandwidthIsTold) {
 
 TEST_F(IidcFailureTest, WhatACrashedProgramLeftRunningIsStopped) {
   fake().transmitting = true;
-  ASSERT_TRUE(open()) << trouble_.text;  // the stand-in takes no mode while it sends
+  ASSERT_TRUE(open()) << trouble_.text;  // the stand-in accepts no mode while it transmits
 }
 
 TEST_F(IidcFailureTest, TheLibraryComplainsInTheTroubleAndNotOnStderr) {
@@ -149,7 +149,7 @@ TEST_F(IidcFailureTest, TheLibraryComplainsInTheTroubleAndNotOnStderr) {
   fake().failing_call = 0;
   fake().guids.clear();
   EXPECT_FALSE(open());
-  EXPECT_EQ(trouble_.text, "IIDC camera (any): is not there");  // an old complaint is not told again
+  EXPECT_EQ(trouble_.text, "IIDC camera (any): is not there");  // the earlier message must not be repeated
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
@@ -164,7 +164,7 @@ TEST_F(IidcFailureTest, AnUnpluggedCameraFailsOnceAndForAll) {
   EXPECT_EQ(stream_->trouble().error_number, EIO);
   const int calls = fake().calls;
   EXPECT_EQ(read(), Read::failed);
-  EXPECT_EQ(fake().calls, calls);  // the library is left alone
+  EXPECT_EQ(fake().calls, calls);  // no further calls of the library
 }
 
 TEST_F(IidcFailureTest, ARingThatTakesNothingBackFailsAfterTheImage) {

@@ -1,4 +1,4 @@
-// The camera under the driver that keeps images coming: it goes, and comes back.
+// Recovery of a camera by the driver after it disappears.
 
 #include <chrono>
 #include <gmock/gmock.h>
@@ -15,15 +15,15 @@ class IidcRecoveryTest : public IidcBench {
  protected:
   IidcRecoveryTest() : driver_({}, [this] { return open_iidc(settings_); }) {}
 
-  /// The driver's clock runs by itself; it must not get ahead of the stamps by as much as makes images too old.
+  /// Advances the driver's clock, which is independent of the stamps. If it runs too far ahead, images become too old.
   void turn(CameraDriver::Clock::duration later = 1ms) { driver_.turn(now_ += later); }
-  /// A frame, taken from the driver.
+  /// Sends a frame and returns whether the driver delivers it.
   bool passes(std::uint8_t number) {
     fake().send(number, -(++sent_ * 33'333));
     turn();
     return driver_.take(frame_) && is_filled_with(frame_, number);
   }
-  /// Turns until the camera is open, for 2 s at most.
+  /// Calls the driver until the camera is open, at most for 2 s.
   bool comes_back() {
     for (int i = 0; i < 200 && fake().captures == 0; ++i) turn(10ms);
     return fake().captures == 1;
@@ -48,14 +48,14 @@ TEST_F(IidcRecoveryTest, UnpluggedAndPluggedInAgain) {
     turn();
     EXPECT_EQ(driver_.state().connection, Connection::away);
     EXPECT_EQ(fake().captures, 0);
-    turn(60ms);  // tried once in vain
+    turn(60ms);  // one failed attempt
     fake().dequeue_error = DC1394_SUCCESS;
     fake().guids = {FakeIidc::kGuid};
     driver_.wake(now_);
     ASSERT_TRUE(comes_back()) << driver_.state().trouble;
     const std::uint64_t before = frame_.sequence;
     ASSERT_TRUE(passes(round));
-    EXPECT_GT(frame_.sequence, before + 1);  // followers see that images were lost
+    EXPECT_GT(frame_.sequence, before + 1);  // the gap in the sequence tells followers that images were lost
   }
   EXPECT_EQ(driver_.state().reopenings(), 10U);
   EXPECT_THAT(events(), testing::HasSubstr("is not there"));

@@ -1,4 +1,4 @@
-// Modes, regions of interest, rates and the speed of the bus.
+// Modes, regions of interest, frame rates and bus speed.
 
 #include "drivers/iidc/iidc_setup.hpp"
 
@@ -34,7 +34,7 @@ TEST_F(IidcSetupTest, AutoTakesTheLargestThenTheMostColourful) {
   ASSERT_TRUE(open());
   EXPECT_EQ(format(), packed_format(PixelFormat::gray8, 640, 480));
   settings_.wants_colour = true;
-  settings_.rate_hz = 30;  // only the small and the grey mode are so fast
+  settings_.rate_hz = 30;  // only the small mode and the grey mode reach this rate
   ASSERT_TRUE(open());
   EXPECT_EQ(fake().mode, DC1394_VIDEO_MODE_640x480_MONO8);
   settings_.width_px = 320;
@@ -206,7 +206,7 @@ TEST_F(IidcSetupTest, RawPixelsFollowTheFilter) {
   settings_.top_px = 5;
   ASSERT_TRUE(open()) << trouble_.text;
   EXPECT_EQ(format().pixels, PixelFormat::bayer_grbg8);
-  EXPECT_EQ(fake().format7.left, 2U);  // so that red stays red
+  EXPECT_EQ(fake().format7.left, 2U);  // keeps the phase of the Bayer pattern
   EXPECT_EQ(fake().format7.top, 4U);
   settings_.wants_colour = false;
   ASSERT_TRUE(open());

@@ -64,8 +64,8 @@ TEST(IidcFrameCounter, GapsCountExactly) {
   }
 }
 
-/// Frames dropped and delayed at random: as long as none comes nearly half an interval late, and not all with the same
-/// regularity, nothing is counted wrong.
+/// Frames are dropped and delayed at random. The count must be right as long as no frame is nearly half an interval
+/// late and the losses are not perfectly regular.
 RC_GTEST_PROP(IidcFrameCounter, JitterDoesNotMiscount, (const std::vector<bool>& kept)) {
   FrameCounter counter(20.0);
   std::optional<std::uint64_t> first;
@@ -100,7 +100,7 @@ TEST(IidcFrameCounter, WithoutAnAgreedRateTheFirstFramesCountOneEach) {
 TEST(IidcFrameCounter, ALateFrameDoesNotHideALaterGap) {
   FrameCounter counter(10.0);
   EXPECT_EQ(counter.next(stamp_from_us(0)), 0U);
-  EXPECT_EQ(counter.next(stamp_from_us(170'000)), 2U);  // so late that it looks like two
+  EXPECT_EQ(counter.next(stamp_from_us(170'000)), 2U);  // so late that it looks like two frames
   EXPECT_EQ(counter.next(stamp_from_us(200'000)), 3U);
   EXPECT_EQ(counter.next(stamp_from_us(300'000)), 4U);
   EXPECT_EQ(counter.next(stamp_from_us(600'000)), 7U);
@@ -125,7 +125,7 @@ TEST(IidcUsbPort, IsFoundByBusAndAddress) {
   device("1-2.3", "1", "7");
   device("2-1", "2", "7");
   device("3-1", "junk", "");
-  std::filesystem::create_directory(folder / "1-2.3:1.0");  // an interface
+  std::filesystem::create_directory(folder / "1-2.3:1.0");  // a USB interface
   EXPECT_EQ(usb_port_of(1, 7, folder.path()), "1-2.3");
   EXPECT_EQ(usb_port_of(2, 7, folder.path()), "2-1");
   EXPECT_EQ(usb_port_of(3, 7, folder.path()), "");

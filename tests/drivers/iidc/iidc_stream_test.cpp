@@ -1,4 +1,4 @@
-// Frames from the ring to leases.
+// Frames from the ring as leases.
 
 #include <array>
 #include <chrono>
@@ -13,7 +13,7 @@
 namespace azimuth::test {
 namespace {
 
-constexpr std::int64_t kInterval_us = 33'333;  // the fastest rate of the stand-in's modes
+constexpr std::int64_t kInterval_us = 33'333;  // at the highest rate of the stand-in's modes
 
 std::int64_t now_us() {
   timespec now{};
@@ -23,13 +23,13 @@ std::int64_t now_us() {
 
 class IidcStreamTest : public IidcBench {
  protected:
-  /// Sends frames as if they had come in time: the last one at the start of the test, the first so long before.
+  /// Sends frames at the regular interval, the last one at the start of the test.
   static void send_in_time(std::initializer_list<std::uint8_t> numbers) {
     auto left = static_cast<std::int64_t>(numbers.size());
     for (const std::uint8_t number : numbers) fake().send(number, --left * kInterval_us);
   }
 
-  const std::int64_t start_us_ = now_us();  // just after that of the stand-in
+  const std::int64_t start_us_ = now_us();  // just after the stand-in's start
 };
 
 TEST_F(IidcStreamTest, ImagesComeInOrderWithStampsAndNumbers) {
@@ -116,7 +116,7 @@ TEST_F(IidcStreamTest, LeasesDoNotHoldTheRing) {
     send_next();
     ASSERT_EQ(stream_->read(frame), Read::image);
   }
-  // Every buffer is leased: what comes now is lost, and the ring goes on.
+  // Every buffer is leased: new frames are lost, but the ring continues.
   for (int i = 0; i < 3; ++i) send_next();
   EXPECT_EQ(read(), Read::nothing);
   EXPECT_EQ(fake().lost, 0);
@@ -144,7 +144,7 @@ TEST_F(IidcStreamTest, LeasesOutliveTheStream) {
   Frame second;
   ASSERT_EQ(stream_->read(second), Read::image);
   stream_.reset();
-  EXPECT_EQ(fake().captures, 0);  // at once: the camera can be opened anew meanwhile
+  EXPECT_EQ(fake().captures, 0);  // immediately, so that the camera can be opened again
   EXPECT_TRUE(is_filled_with(frame_, 7));
   EXPECT_TRUE(is_filled_with(second, 8));
   ASSERT_TRUE(open());

@@ -29,7 +29,7 @@ TEST(IidcText, FeaturesAreWordsRegistersOrAbsoluteValues) {
 TEST(IidcText, FeaturesWithAnotherUnitOrNonsenseAreRefused) {
   for (const char* text :
        {"4096", "-1", "4.5", "4 dB", "4 m", "ms", "nan s", "inf s", "1e999 s", "12 ", "1 2 s", "AUTO"}) {
-    const bool good = std::string_view(text) == "12 ";  // spaces around are nothing
+    const bool good = std::string_view(text) == "12 ";  // surrounding spaces are ignored
     EXPECT_EQ(parse_feature(text, FeatureUnit::second).has_value(), good) << text;
   }
   EXPECT_FALSE(parse_feature("4 ms", FeatureUnit::none).has_value());

@@ -1,5 +1,5 @@
 #pragma once
-// Datagrams as liblcm makes them, and wrong ones.
+// Valid and invalid LCM datagrams.
 
 #include <algorithm>
 #include <cstddef>
@@ -63,7 +63,7 @@ inline std::vector<Datagram> in_parts(std::uint32_t sequence, std::string_view c
   return datagrams;
 }
 
-/// As a receiver does. False: no datagram of LCM.
+/// Processes a datagram like the receiver. Returns false if it is not an LCM datagram.
 inline bool offer(LcmSink& sink, Bytes datagram, LcmPeer sender, const LcmReceipt& receipt) {
   const auto packet = decode_lcm_packet(datagram);
   if (packet) sink.accept(*packet, sender, receipt);

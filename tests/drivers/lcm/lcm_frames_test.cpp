@@ -36,7 +36,7 @@ class LcmFramesTest : public ::testing::Test {
   void offer(const test::Datagram& datagram, LcmPeer sender = kCamera) {
     test::offer(frames_, datagram, sender, {now_ + 5ms, {}});
   }
-  /// Whole messages, as far as they are small; time goes on by 100 ms.
+  /// Sends a message in one datagram and advances the time by 100 ms.
   void send(const image_t& message, LcmPeer sender = kCamera) {
     offer(test::whole_message(++message_, "CAMERA", bytes_of(message)), sender);
     now_ += 100ms;
@@ -84,7 +84,7 @@ TEST_F(LcmFramesTest, PartsMayComeInAnyOrderAfterTheFirstAndTwice) {
     auto parts = parts_of(image(i));
     parts.insert(parts.end(), parts.begin(), parts.end());
     std::shuffle(parts.begin() + 1, parts.end(), random);
-    // A part may come once more only while its image is incomplete: afterwards a first one would begin another.
+    // A part may repeat only while its image is incomplete; afterwards a repeated first part would start another image.
     for (const auto& part : parts) {
       const bool is_done = frames_.counts().frames == i + 1U;
       if (!is_done) offer(part);
@@ -146,7 +146,7 @@ TEST_F(LcmFramesTest, PartsThatContradictEachOtherAreLeftOut) {
   offer(test::one_part({1, size, 1000, 1, static_cast<std::uint16_t>(count + 1)}, "", Bytes(bytes).first(1000)));
   for (std::size_t i = 1; i < parts.size(); ++i) offer(parts[i]);
   EXPECT_EQ(filling_of_next(), 1);
-  // Every part is there, but not every byte.
+  // All parts arrive, but not all bytes.
   now_ += 100ms;
   parts = test::in_parts(2, "CAMERA", bytes_of(image(2)), 1000);
   parts.back() = test::one_part({2, size, 0, static_cast<std::uint16_t>(count - 1), count}, "", {});
@@ -163,7 +163,7 @@ TEST_F(LcmFramesTest, WhatCannotBeAnImageIsCounted) {
   message.height = -48;
   send(message);
   message = image(1);
-  message.height = 49;  // more rows than bytes
+  message.height = 49;  // more rows than the bytes allow
   send(message);
   send_in_parts(message);
   offer(test::whole_message(9, "CAMERA", {}));

@@ -1,4 +1,4 @@
-// The receiver and liblcm as a sender, on a loopback of their own (tests/daemon/in_namespace.sh).
+// The receiver with liblcm as sender, in a network namespace of its own (tests/daemon/in_namespace.sh).
 
 #include <azimuth/image_t.hpp>
 #include <functional>
@@ -29,7 +29,7 @@ std::int64_t wall_us() {
   return std::chrono::duration_cast<Duration>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
-/// liblcm's own sender.
+/// A sender that uses liblcm.
 class Sender {
  public:
   Sender() : lcm_(lcm_create(kUrl), lcm_destroy) {}
@@ -136,7 +136,7 @@ TEST_F(LcmNetworkTest, AFloodIsTakenInBoundedTurnsAndItsLossesAreCounted) {
     sender.send("ODOMETRY", reading(sequence++));
     return odometry_.take(got);
   }));
-  // The kernel tells of losses with the next datagram that it has room for.
+  // The kernel reports losses with the next datagram that it can store.
   EXPECT_GT(receiver_.state().kernel_dropped, 0U);
 }
 
@@ -159,7 +159,7 @@ TEST_F(LcmNetworkTest, BytesOfNoMeaningAreCounted) {
 }
 
 TEST_F(LcmNetworkTest, SaysWhyItCannotListen) {
-  // 224.0.0.0/4 has a route here; an address that is no group has not even a socket option.
+  // 224.0.0.0/4 has a route in this namespace, but a non-group address does not even accept the socket option.
   LcmReceiver receiver({.group = {127, 0, 0, 1}, .port = 7667}, Duration{});
   receiver.turn(Clock::now(), odometry_);
   EXPECT_FALSE(receiver.state().open);

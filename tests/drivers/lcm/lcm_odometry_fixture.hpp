@@ -1,5 +1,5 @@
 #pragma once
-// What a robot says by LCM of its odometry, in virtual time.
+// LCM messages with a robot's odometry, in virtual time.
 
 #include <chrono>
 #include <cmath>
@@ -16,7 +16,7 @@ inline constexpr LcmPeer kLcmRobot = 1, kOtherLcmRobot = 2;
 
 class LcmOdometryTest : public ::testing::Test {
  protected:
-  /// A message on its way, 5 ms old at its arrival; time goes on by 100 ms.
+  /// Sends a message that arrives 5 ms after its stamp, and advances the time by 100 ms.
   template <class Message>
   void send(const Message& message, LcmPeer sender = kLcmRobot, const char* channel = "ODOMETRY") {
     encode(message, encoded_);

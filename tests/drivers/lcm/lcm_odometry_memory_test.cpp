@@ -1,4 +1,4 @@
-// What a process that hears a robot's odometry leaves to the next.
+// The odometer's memory from one process to the next, for odometry over LCM.
 
 #include "tests/drivers/lcm/lcm_odometry_fixture.hpp"
 
@@ -7,7 +7,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// What the first two seconds leave to the next process.
+/// The memory after two seconds of odometry.
 class LcmOdometryMemory : public LcmOdometryTest {
  protected:
   LcmOdometryMemory() {
@@ -15,7 +15,7 @@ class LcmOdometryMemory : public LcmOdometryTest {
     before_ = taken().back();
     remembers_ = odometry_.remember(memory_);
   }
-  /// What another process hears of `sender` first, which has gone on meanwhile.
+  /// The first reading of the next process. The robot has continued to send meanwhile.
   OdometryReading first_heard(LcmPeer sender, double x_m, std::int64_t origin = 3, Duration away = 3s) {
     LcmOdometry next(settings_);
     next.restore(memory_);

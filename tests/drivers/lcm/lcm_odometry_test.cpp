@@ -41,7 +41,7 @@ TEST_F(LcmOdometryTest, UnderstandsThePoseOfBotCore) {
   EXPECT_EQ(all[3].origin, all[0].origin);
 }
 
-/// A body that is tilted a little heads where it did before it was tilted.
+/// A small tilt of the body must not change its heading.
 TEST_F(LcmOdometryTest, TakesTheTurnAboutTheVertical) {
   pose_t message = pose(0.0, 0.0);
   const double yaw = 0.7, pitch = 0.2;  // yaw first, then pitch about the body's own axis
@@ -75,18 +75,19 @@ TEST_F(LcmOdometryTest, ASenderThatNeverCountsHasNoGapsAndOneOrigin) {
 
 TEST_F(LcmOdometryTest, ARestartIsANewOriginAndSequencesGoOn) {
   send(reading(500, 8.0));
-  const std::function<void()> restarts[] = {[this] { send(reading(0, 8.0)); },    // counts from the start
-                                            [this] { send(reading(1, 200.0)); },  // jumps
-                                            [this] { send(reading(std::int64_t{1} << 60, 200.0)); },  // counts nonsense
+  const std::function<void()> restarts[] = {[this] { send(reading(0, 8.0)); },    // the sequence restarts
+                                            [this] { send(reading(1, 200.0)); },  // the pose jumps
+                                            // The sequence is nonsense.
+                                            [this] { send(reading(std::int64_t{1} << 60, 200.0)); },
                                             [this] {
                                               odometry_t other = reading((std::int64_t{1} << 60) + 1, 200.0);
                                               other.origin = 4;
                                               send(other);
                                             },
-                                            [this] { send(pose(200.0, 0.0)); },  // changes its type
+                                            [this] { send(pose(200.0, 0.0)); },  // the type changes
                                             [this] {
                                               now_ += 1s;
-                                              send(pose(200.0, 0.0), kOtherLcmRobot);  // another process
+                                              send(pose(200.0, 0.0), kOtherLcmRobot);  // another process sends
                                             }};
   std::uint32_t origin = 1;
   std::uint64_t sequence = taken().at(0).sequence;
@@ -107,7 +108,7 @@ TEST_F(LcmOdometryTest, OneSenderAtATime) {
   send(reading(2));
   EXPECT_EQ(taken().size(), 2U);
   EXPECT_EQ(odometry_.counts().other_senders, 1U);
-  now_ += 1s;  // silence
+  now_ += 1s;  // no messages
   encoded_.assign(10, std::byte{1});
   offer_encoded(kOtherLcmRobot);
   send(reading(3));

@@ -50,7 +50,7 @@ TEST(LcmStamps, AscendStrictly) {
   EXPECT_EQ(stamps.counts().out_of_order, 2U);
 }
 
-/// The wall clock was an hour slow when the daemon started, and has been set since.
+/// The wall clock is an hour slow at the daemon's start and is set later.
 TEST(LcmStamps, RunEvenlyWhenTheWallClockIsSet) {
   LcmStamps stamps(LcmStampKind::sender, 1s);
   EXPECT_EQ(stamps.judge(kNow - 30ms, {kNow, {}}), kNow - 30ms);

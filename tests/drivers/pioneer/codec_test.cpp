@@ -1,4 +1,4 @@
-// The robot's packets: known bytes, every field there and back, and packets that end early.
+// The robot's packets: known bytes, round trips of every field, and truncated packets.
 
 #include <gmock/gmock.h>
 #include <numeric>
@@ -33,7 +33,7 @@ void draw_all(Fields&... fields) {
   (draw(fields), ...);
 }
 
-/// How many of the optional fields are there.
+/// Fills the first `count` optional fields.
 void draw_tail(StandardSip& s, int count) {
   const auto one = [&count](auto& field) {
     if (count-- > 0) draw(field);
@@ -64,7 +64,7 @@ TEST(PioneerSip, EveryFieldHasItsPlace) {
   ByteVector data(1 + 19 + 2 * 3 + 24);
   std::iota(data.begin(), data.end(), std::uint8_t{1});
   data[0] = 0x33;
-  data[19] = 2;  // sonars
+  data[19] = 2;  // number of sonar readings
   const auto sip = decode_sip(data);
   ASSERT_TRUE(sip);
   EXPECT_EQ(sip->x_units, 0x0302);
@@ -142,7 +142,7 @@ RC_GTEST_PROP(PioneerConfig, Survives, ()) {
   RC_ASSERT(decode_config(data_of(encode_config(config))) == config);
 }
 
-/// The beginning of what a real P3DX-SH sends.
+/// The beginning of a packet from a real P3DX-SH.
 const ByteVector& real_config() {
   static const ByteVector data{0x20, 0x50, 0x69, 0x6f, 0x6e, 0x65, 0x65, 0x72, 0x00, 0x70, 0x33, 0x64, 0x78, 0x2d,
                                0x73, 0x68, 0x00, 0x47, 0x4a, 0x43, 0x5f, 0x33, 0x31, 0x35, 0x36, 0x00, 0x00, 0x68,
@@ -169,7 +169,7 @@ TEST(PioneerConfig, OfARealRobot) {
 }
 
 TEST(PioneerConfig, EndsEarlyWithoutHarm) {
-  const std::size_t required = 50;  // up to the SIP cycle
+  const std::size_t required = 50;  // up to the field with the SIP cycle
   for (std::size_t size = 0; size <= real_config().size(); ++size)
     EXPECT_EQ(decode_config(ByteView(real_config()).first(size)).has_value(), size >= required) << size;
 }
@@ -205,7 +205,7 @@ RC_GTEST_PROP(PioneerGyro, Survives, ()) {
 TEST(PioneerMotionPackets, HaveTheKnownBytes) {
   EXPECT_EQ(decode_encoder(ByteVector{0x90, 1, 0, 0, 0, 0xFE, 0xFF, 0xFF, 0xFF}), (EncoderPacket{1, -2}));
   EXPECT_FALSE(decode_encoder(ByteVector{0x90, 1, 0, 0, 0, 0xFE, 0xFF, 0xFF}));
-  const auto gyro = decode_gyro(ByteVector{0x98, 2, 0x01, 0x02, 20, 0xFF});  // the second sample is cut
+  const auto gyro = decode_gyro(ByteVector{0x98, 2, 0x01, 0x02, 20, 0xFF});  // the second sample is truncated
   ASSERT_TRUE(gyro);
   EXPECT_THAT(gyro->all(), testing::ElementsAre(GyroPacket::Sample{0x0201, 20}));
 }
@@ -222,7 +222,7 @@ RC_GTEST_PROP(PioneerCodecs, AnyBytesDecodeOrNot, ()) {
   }
 }
 
-/// A SIP that ends before its sonar count tells nothing, as a packet that is not of motion.
+/// A SIP that is truncated before its sonar count carries no motion, like a packet of another type.
 TEST(PioneerMessage, SaysWhatAPacketTellsOfTheMotion) {
   const auto motion = [](const Frame& frame, std::size_t cut = 0) {
     const ByteVector data = data_of(frame);

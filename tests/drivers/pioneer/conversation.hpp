@@ -1,6 +1,6 @@
 #pragma once
-// Session and odometer against a robot that says anything: for the fuzzer and for random scripts. Aborts when a promise
-// is broken.
+// Session and odometer with a robot that sends anything, for the fuzzer and for random scripts. Aborts if an invariant
+// is violated.
 
 #include <cmath>
 #include <cstdlib>
@@ -20,7 +20,7 @@ class Conversation {
  public:
   explicit Conversation(const PioneerSettings& settings) : session_(settings, true), odometer_(settings, Duration{0}) {}
 
-  /// Plays a script: each byte is an instruction, some with bytes that belong to it.
+  /// Plays a script: each byte is an instruction, some with operands.
   void play(ByteView script) {
     while (!script.empty()) {
       const std::uint8_t instruction = script.front();
@@ -31,7 +31,7 @@ class Conversation {
           hear(some);
           script = script.subspan(some.size());
           break;
-        case 1:  // a good packet of any content
+        case 1:  // a valid packet with any content
           if (!some.empty()) hear(encode_frame(some).view());
           script = script.subspan(some.size());
           break;
@@ -63,7 +63,7 @@ class Conversation {
   std::uint64_t opened() const { return session_.opened(); }
   std::uint64_t readings() const { return last_ ? last_->sequence + 1 : 0; }
 
-  /// Whether a robot in good order gets its session.
+  /// Whether a session opens with a robot that works correctly.
   bool recovers() {
     controller_.restart();
     for (int i = 0; i < 3000 && session_.phase() != SessionPhase::running; ++i) run(std::chrono::milliseconds(10));
@@ -122,7 +122,7 @@ class Conversation {
   }
 
   void act() {
-    if (is_acting_) return;  // answers are heard after all actions
+    if (is_acting_) return;  // the answers are processed after all actions
     is_acting_ = true;
     ByteVector answers;
     do {

@@ -1,4 +1,4 @@
-// The driver and a device that is away, says nothing or is let go of; in virtual time.
+// The driver with a device that is absent, silent or closed, in virtual time.
 
 #include <algorithm>
 #include <filesystem>
@@ -20,8 +20,8 @@ using pioneer::test::readable;
 using testing::HasSubstr;
 using Bench = pioneer::test::DriverBench;
 
-/// Readings of the first two seconds after a robot was `away` and came back on another node; those before stay in
-/// `before`.
+/// Readings of the first two seconds after the robot was `away` and returned on another device node. `before` receives
+/// the last reading before the absence.
 std::vector<OdometryReading> replugged_readings(PioneerDriver::Clock::duration away, OdometryReading& before,
                                                 std::uint64_t& reconnects) {
   const std::filesystem::path path = testing::TempDir() + "pioneer." + std::to_string(::getpid());
@@ -33,13 +33,13 @@ std::vector<OdometryReading> replugged_readings(PioneerDriver::Clock::duration a
   EXPECT_EQ(bench.driver.state().connection, Connection::running);
   before = bench.readings.back();
 
-  const PtyRobot keeps_the_name(controller);  // so that the next one has another
+  const PtyRobot keeps_the_name(controller);  // occupies the name, so that the next device gets another one
   robot.reset();
   std::filesystem::remove(path);
   bench.run(away);
   EXPECT_EQ(bench.driver.state().connection, Connection::away);
 
-  robot = std::make_unique<PtyRobot>(controller);  // the session is still open on the robot's side
+  robot = std::make_unique<PtyRobot>(controller);  // the session is still open at the robot
   std::filesystem::create_symlink(robot->device(), path);
   bench.readings.clear();
   bench.run(2s, *robot, controller);
@@ -57,7 +57,7 @@ TEST(PioneerDriver, GoesOnWithinTwoSecondsOfAReplugOnAnotherNode) {
   EXPECT_EQ(reconnects, 1U);
   EXPECT_EQ(readings.front().origin, before.origin);
   EXPECT_GT(readings.front().sequence, before.sequence);
-  EXPECT_LT(readings.front().sigma_gap_m, 0.3);  // only of how it went meanwhile
+  EXPECT_LT(readings.front().sigma_gap_m, 0.3);  // covers only the unobserved motion
 }
 
 TEST(PioneerDriver, BeginsANewOriginAfterALongAbsence) {
@@ -70,7 +70,7 @@ TEST(PioneerDriver, BeginsANewOriginAfterALongAbsence) {
   EXPECT_GT(readings.front().sigma_gap_m, 0.0);
 }
 
-/// How often the driver opens a device that is not there, in `time`.
+/// Counts how often the driver tries to open a missing device in a given time.
 class Openings {
  public:
   explicit Openings(int error_number) {
@@ -109,7 +109,7 @@ TEST(PioneerDriver, KnowsHowLongADeviceThatIsThereHasSaidNothing) {
   PtyRobot robot(controller);
   Bench bench(robot.device());
   EXPECT_EQ(bench.driver.silent_for(bench.now), 0s);
-  bench.run(12s);  // over several attempts to find a robot
+  bench.run(12s);  // during several attempts to find a robot
   EXPECT_GE(bench.driver.silent_for(bench.now), 11s);
   EXPECT_LE(bench.driver.silent_for(bench.now), 12s);
   bench.run(2s, robot, controller);

@@ -1,5 +1,5 @@
 #pragma once
-// The driver on a device, in virtual time.
+// The driver with a device, in virtual time.
 
 #include <chrono>
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 
 inline constexpr Duration kEpochMinusMonotonic = 1'000'000s;
 
-/// A driver and whatever it is connected to.
+/// A driver with its readings and events.
 class DriverBench {
  public:
   explicit DriverBench(const std::string& device, bool keep_session = false)
@@ -26,7 +26,7 @@ class DriverBench {
   std::vector<OdometryReading> readings;
   std::vector<std::string> events;
 
-  /// Turns every 10 ms; the robot is served before each and sends every 100 ms.
+  /// Calls the driver every 10 ms. The robot answers before each call and sends a cycle every 100 ms.
   template <class Robot>
   void run(PioneerDriver::Clock::duration time, Robot& robot, FakeController& controller) {
     for (const auto end = now + time; now < end;) {
@@ -36,7 +36,7 @@ class DriverBench {
       turn();
     }
   }
-  /// The robot is away.
+  /// Runs without a robot.
   void run(PioneerDriver::Clock::duration time) {
     for (const auto end = now + time; now < end; now += 10ms) turn();
   }
@@ -58,7 +58,7 @@ class DriverBench {
   }
 };
 
-/// One to a line.
+/// The events, one per line.
 inline std::string readable(const std::vector<std::string>& events) {
   std::string all;
   for (const auto& event : events) all += event + "\n";

@@ -1,4 +1,4 @@
-// The driver of one process, and that of the next at the same robot; in virtual time.
+// The driver of one process and that of the next with the same robot, in virtual time.
 
 #include <gmock/gmock.h>
 
@@ -14,7 +14,7 @@ using pioneer::test::PtyRobot;
 using pioneer::test::readable;
 using Bench = pioneer::test::DriverBench;
 
-/// A robot that has driven 0.6 m east and 0.2 m north, and what its driver remembers. Counters wrap on the way.
+/// A robot that has driven 0.6 m east and 0.2 m north, with counters that wrap on the way, and its driver's memory.
 class PioneerMemory : public testing::Test {
  protected:
   PioneerMemory() {
@@ -32,7 +32,7 @@ class PioneerMemory : public testing::Test {
     first_.run(100ms, robot_, controller_);
   }
 
-  /// The readings of the process after it, which comes `away` later.
+  /// The readings of the next process, which starts `away` later.
   std::vector<OdometryReading> next_process(PioneerDriver::Clock::duration away) {
     Bench next(robot_.device(), true);
     next.now = first_.now + away;
@@ -59,7 +59,7 @@ TEST_F(PioneerMemory, IsOfTheNewestPacket) {
 
 TEST_F(PioneerMemory, LetsTheNextProcessGoOnAndLosesNoMotion) {
   const Pose2 before = memory_.T_odom_body;
-  controller_.sip.x_units = static_cast<std::uint16_t>((controller_.sip.x_units + 900) & 0x7FFF);  // with nobody there
+  controller_.sip.x_units = static_cast<std::uint16_t>((controller_.sip.x_units + 900) & 0x7FFF);  // no process listens
   const auto readings = next_process(3s);
   EXPECT_EQ(readings.front().origin, memory_.origin);
   EXPECT_NEAR(readings.front().T_odom_body.x_m, before.x_m + 0.9, 1e-9);

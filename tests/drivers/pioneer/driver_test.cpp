@@ -1,4 +1,4 @@
-// The driver on real descriptors, in virtual time: nothing here waits.
+// The driver with real descriptors in virtual time, without waiting.
 
 #include "drivers/pioneer/driver.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// A Pioneer's controller as far as the driver's tests need one, on bytes: no time and no line of its own.
+// A Pioneer controller for the driver's tests: it works on bytes, without time and without a line.
 
 #include <cstdint>
 #include <string>
@@ -30,20 +30,20 @@ class FakeController {
     config.firmware_version = "2.9";
   }
 
-  // How it is; to be set before use.
+  // Properties, to be set before use.
   ConfigPacket config;
   bool config_checksum_is_wrong = false, answers_config = true, follows_host_baud = true;
-  bool answers_nothing = false;  // hears all, says nothing, and does nothing
+  bool answers_nothing = false;  // receives everything, but neither answers nor obeys
   int start_baud = 9600;
 
-  // How it goes.
+  // State.
   StandardSip sip;
   EncoderPacket ticks;
   int baud = 9600;
   bool open = false, sends_encoder = false, sends_gyro = false;
-  std::vector<ByteVector> commands;  // all it ever got
+  std::vector<ByteVector> commands;  // all commands received so far
 
-  /// Bytes from the client at `line_baud`; at another rate than the controller's they are noise.
+  /// Processes bytes that the client sends at `line_baud`. At another rate than the controller's they are noise.
   ByteVector receive(ByteView bytes, int line_baud) {
     ByteVector answer;
     if (line_baud != 0 && line_baud != baud) return answer;
@@ -54,7 +54,7 @@ class FakeController {
     return answer;
   }
 
-  /// What it sends in one cycle.
+  /// The bytes that the controller sends in one cycle.
   ByteVector cycle() const {
     ByteVector bytes;
     if (!open || answers_nothing) return bytes;
@@ -63,7 +63,7 @@ class FakeController {
     return bytes;
   }
 
-  /// Power off and on.
+  /// Switches the controller off and on.
   void restart() {
     open = sends_encoder = sends_gyro = false;
     baud = start_baud;
@@ -85,7 +85,7 @@ class FakeController {
     if (command.is(Command::host_baud) && follows_host_baud) baud = *baud_of_code(*command.value);
   }
 
-  /// OPEN is number 1 as well: it is told from SYNC1 by what came before it.
+  /// OPEN and SYNC1 have the same number; the preceding commands distinguish them.
   void synchronise(ByteView data, ByteVector& answer) {
     const std::uint8_t number = data.front();
     if (sync_ == 3 && number == 1) return begin();
@@ -125,7 +125,7 @@ class FakeController {
   int sync_ = 0;
 };
 
-/// Whether the driver may send these data: nothing that moves a wheel, enables a motor or changes how the robot drives.
+/// Whether the driver may send these data: no command may move a wheel, enable a motor or change how the robot drives.
 inline bool is_harmless(ByteView data) {
   const DecodedCommand command = decode_command(data);
   const bool has_no_argument = data.size() == 1;

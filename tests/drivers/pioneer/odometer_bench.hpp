@@ -1,5 +1,5 @@
 #pragma once
-// An odometer and the packets that it hears.
+// An odometer and the packets that it receives.
 
 #include <chrono>
 #include <cmath>
@@ -15,7 +15,7 @@ namespace azimuth::pioneer::test {
 inline constexpr double kUnit_rad = 2.0 * kPi / 4096.0;
 inline constexpr Clock::time_point kBenchStart{std::chrono::hours(1)};
 
-/// A robot whose cycles the odometer hears or not.
+/// A robot whose cycles the test delivers to the odometer or drops.
 class OdometerBench {
  public:
   explicit OdometerBench(const OdometerSetup& setup = {}, const PioneerSettings& settings = {})
@@ -37,7 +37,7 @@ class OdometerBench {
   const OdometryReading& last() const { return readings.back(); }
 };
 
-/// As a counter of that width shows it.
+/// The value of a counter with the given width.
 inline std::uint16_t counter(double units, unsigned mask) {
   return static_cast<std::uint16_t>(static_cast<unsigned>(std::lround(units)) & mask);
 }

@@ -1,4 +1,4 @@
-// Odometry with the help of wheel ticks and of a gyro.
+// Odometry with wheel ticks and with a gyro.
 
 #include <cmath>
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@ using test::kUnit_rad;
 
 constexpr double kTicksPerMm = 128.0;
 
-/// Drives straight with 0.3 mm more a cycle than whole millimetres show.
+/// Drives straight, with 0.3 mm more per cycle than the SIP's whole millimetres show.
 class TickBench : public test::OdometerBench {
  public:
   explicit TickBench(double claimed_ticks_per_mm = kTicksPerMm, const PioneerSettings& settings = {})
@@ -89,10 +89,11 @@ TEST(PioneerOdometer, LostTicksLoseNoMotion) {
     bench.sends_ticks = i == 999 || random() % 5 != 0;
     bench.cycle(30.3);
   }
-  EXPECT_NEAR(1e3 * bench.last().T_odom_body.x_m, bench.x_mm - 30.3, 10.0);  // half a millimetre for each change
+  // Half a millimetre for each change between the two sources.
+  EXPECT_NEAR(1e3 * bench.last().T_odom_body.x_m, bench.x_mm - 30.3, 10.0);
 }
 
-// Ticks alone would make one wide arc of a straight and a turn in place after it.
+// Ticks alone would turn a straight motion and a turn in place into one wide arc.
 TEST(PioneerOdometer, TheWayOfLostCyclesIsTheControllers) {
   TickBench bench;
   for (int i = 0; i < 20; ++i) bench.cycle(30.0);
@@ -116,7 +117,7 @@ TEST(PioneerOdometer, CalibratedTicksTurnToo) {
   ASSERT_TRUE(bench.odometer.uses_ticks());
   double expected_rad = bench.last().T_odom_body.heading_rad;
   for (int i = 0; i < 40; ++i) {
-    bench.cycle(0.0, 0.0101);  // not whole units of the SIP
+    bench.cycle(0.0, 0.0101);  // not a multiple of the SIP's unit
     expected_rad += 0.0101;
     EXPECT_NEAR(bench.last().T_odom_body.heading_rad, expected_rad, 1e-4);
   }
@@ -131,7 +132,7 @@ class GyroBench : public test::OdometerBench {
   explicit GyroBench(bool use_gyro = true) : OdometerBench({.parameters = {}, .use_gyro = use_gyro}) {}
   double wheels_rad = 0.0;
 
-  /// The gyro sees `gyro_rad`, to a whole count of its rate, and the wheels `turned_rad`.
+  /// The gyro measures `gyro_rad`, rounded to a whole count of its rate; the wheels measure `turned_rad`.
   void cycle(double gyro_rad, double turned_rad) {
     now += 100ms;
     wheels_rad += turned_rad;
@@ -153,7 +154,8 @@ constexpr double kTenCounts_rad = 10.0 * kRad_per_count_and_s * 0.1;  // in one 
 TEST(PioneerOdometer, TheGyroCorrectsTheWheels) {
   GyroBench bench;
   bench.stand(20);
-  for (int i = 0; i < 100; ++i) bench.cycle(5.0 * kTenCounts_rad, 4.75 * kTenCounts_rad);  // wheels 5 % short
+  // The wheels report 5 % too little.
+  for (int i = 0; i < 100; ++i) bench.cycle(5.0 * kTenCounts_rad, 4.75 * kTenCounts_rad);
   const double per_cycle_rad = wrap(bench.last().T_odom_body.heading_rad - 495.0 * kTenCounts_rad) / 100.0;
   EXPECT_NEAR(per_cycle_rad, 0.0, 0.06 * kTenCounts_rad);
   EXPECT_EQ(bench.odometer.skids(), 0U);
@@ -161,7 +163,7 @@ TEST(PioneerOdometer, TheGyroCorrectsTheWheels) {
 
 TEST(PioneerOdometer, WithoutItsRateAtRestTheGyroIsNotUsed) {
   GyroBench bench;
-  bench.stand(5);  // too short
+  bench.stand(5);  // too short to learn the rate at rest
   for (int i = 0; i < 20; ++i) bench.cycle(kTenCounts_rad, 0.0);
   EXPECT_EQ(bench.last().T_odom_body.heading_rad, 0.0);
 }
@@ -192,7 +194,7 @@ TEST(PioneerOdometer, StandingWheelsAreBelievedOverAGyroThatDrifts) {
 TEST(PioneerOdometer, GyroPacketsThatAreMissingAreNotReplacedByOthers) {
   GyroBench bench;
   bench.stand(20);
-  bench.now += 300ms;  // three cycles were lost
+  bench.now += 300ms;  // three lost cycles
   bench.cycle(kTenCounts_rad, 4.0 * kTenCounts_rad);
   EXPECT_NEAR(bench.last().T_odom_body.heading_rad, 4.0 * kTenCounts_rad, 0.5 * kUnit_rad + 1e-9);
 }

@@ -1,4 +1,4 @@
-// Odometry from packets: wraps, losses, what is said to be uncertain.
+// Odometry from packets: counter wraps, losses, and the stated uncertainty.
 
 #include "drivers/pioneer/odometer.hpp"
 
@@ -26,13 +26,13 @@ TEST(PioneerOdometer, BeginsAtTheOriginWhateverTheCountersSay) {
   EXPECT_EQ(bench.last().T_odom_body, Pose2{});
   EXPECT_EQ(bench.last().sigma_gap_m, 0.0);
   bench.now += 100ms;
-  bench.sip.x_units = 1234 + 100;  // straight ahead would be along the heading of 1000 units
+  bench.sip.x_units = 1234 + 100;  // straight ahead along the heading of 1000 units
   bench.hear_sip();
   EXPECT_NEAR(bench.last().T_odom_body.x_m, 0.1 * std::cos(1000 * kUnit_rad), 1e-12);
   EXPECT_NEAR(bench.last().T_odom_body.y_m, -0.1 * std::sin(1000 * kUnit_rad), 1e-12);
 }
 
-// 1.5 m/s is 150 mm a cycle, 300 when one is lost.
+// 1.5 m/s is 150 mm per cycle, or 300 mm if one is lost.
 TEST(PioneerOdometer, LosesNoDistanceWithOneSipInFiveLostOn15And16Bits) {
   for (const unsigned mask : {0x7FFFU, 0xFFFFU}) {
     OdometerBench bench;
@@ -74,7 +74,7 @@ TEST(PioneerOdometer, CountsInTheRobotsUnits) {
   EXPECT_NEAR(bench.last().T_odom_body.heading_rad, 2.0 * kPi / 16.0, 1e-12);
 }
 
-// Any path, any losses: the pose is the controller's, as long as no loss hides half the counters' range.
+// For any path and any losses the pose must equal the controller's, as long as no loss hides half of a counter's range.
 RC_GTEST_PROP(PioneerOdometer, FollowsTheControllersPose, ()) {
   OdometerBench bench;
   double x_mm = 0.0, y_mm = 0.0;
@@ -122,7 +122,7 @@ TEST(PioneerOdometer, BelievesAndDoubtsAStepTooLargeToBeTrue) {
   EXPECT_NEAR(bench.last().sigma_gap_rad, 1000 * kUnit_rad, 1e-12);
 }
 
-// A damaged packet with a right checksum: half the counter's range is as far forwards as backwards.
+// A damaged packet with a valid checksum. A jump of half the counter's range is ambiguous: forwards or backwards.
 TEST(PioneerOdometer, ComesBackFromAJumpOfHalfTheCounter) {
   for (const int speed : {40, -40}) {
     for (const unsigned flipped : {0x4000U, 0x2000U, 0x8000U}) {
@@ -148,7 +148,7 @@ TEST(PioneerOdometer, DoubtsALongGap) {
   EXPECT_NEAR(bench.last().T_odom_body.x_m, 0.9, 1e-12);
   EXPECT_GT(bench.last().sigma_gap_m, 0.05);
   EXPECT_LT(bench.last().sigma_gap_m, 0.2);
-  bench.now += 8s;  // long enough for the counters to have wrapped unseen
+  bench.now += 8s;  // long enough for an unobserved wrap of the counters
   bench.hear_sip();
   EXPECT_GT(bench.last().sigma_gap_m, 16.0);
 }
@@ -185,7 +185,7 @@ TEST(PioneerOdometer, StampsTheBeginOfTheCycle) {
   EXPECT_FALSE(odometer.add(decoded({encoder, test::kBenchStart, true}), byte_time));
   const auto reading = odometer.add(decoded({sip, second_at, true}), byte_time);
   ASSERT_TRUE(reading);
-  // One byte was on the wire before it had arrived whole.
+  // One byte was already on the wire before it had arrived completely.
   EXPECT_EQ(reading->stamp.time_since_epoch(), test::kBenchStart.time_since_epoch() + 10s - 1ms - 2ms);
 }
 

@@ -1,4 +1,4 @@
-// Framing: known bytes, and a scanner that loses nothing that is whole.
+// Framing: known bytes, and a scanner that must find every complete packet.
 
 #include "drivers/pioneer/packet.hpp"
 
@@ -20,7 +20,7 @@ rc::Gen<ByteVector> any_data() {
   });
 }
 
-/// Noise in which headers are common.
+/// Noise with many packet headers.
 rc::Gen<ByteVector> any_noise() {
   return rc::gen::container<ByteVector>(rc::gen::weightedOneOf<std::uint8_t>(
       {{2, rc::gen::element<std::uint8_t>(0xFA, 0xFB)}, {1, rc::gen::arbitrary<std::uint8_t>()}}));
@@ -50,7 +50,7 @@ RC_GTEST_PROP(PioneerPacket, EveryPacketIsFoundHoweverItIsCut, ()) {
   RC_ASSERT(scanner.bad_checksums() == 0U);
 }
 
-// Of two: noise may by chance be the begin of a good packet that ends inside the first one.
+// The stream has two packets, because noise may happen to start a valid packet that ends inside the first one.
 RC_GTEST_PROP(PioneerPacket, NoiseHidesNoPacketBehindIt, ()) {
   const ByteVector data{0x32, 1, 2, 3, 4, 5, 6, 7};
   ByteVector stream = *any_noise();
@@ -71,7 +71,7 @@ RC_GTEST_PROP(PioneerPacket, EveryByteIsOfAPacketOrSkippedOrInHand, ()) {
 }
 
 TEST(PioneerPacket, OfABadPacketOnlyTheFirstByteIsGivenUp) {
-  ByteVector stream{0xFA, 0xFB, 20, 0x32};  // announces 20 bytes, which begin inside the next packet
+  ByteVector stream{0xFA, 0xFB, 20, 0x32};  // announces 20 bytes and extends into the next packet
   const ByteVector good{0x33, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16};
   test::append(stream, encode_frame(good).view());
   PacketScanner scanner;
@@ -128,7 +128,7 @@ TEST(PioneerPacket, IsDatedByItsFirstByte) {
   scanner.add(frame.view().subspan(4), start + 50ms, 1ms);
   const auto packet = scanner.next();
   ASSERT_TRUE(packet);
-  EXPECT_EQ(packet->first_byte_at, start - 3ms);  // three bytes after it came with it
+  EXPECT_EQ(packet->first_byte_at, start - 3ms);  // three later bytes arrived together with it
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Commands as bytes, and back.
+// Encoding and decoding of commands.
 
 #include "drivers/pioneer/protocol.hpp"
 

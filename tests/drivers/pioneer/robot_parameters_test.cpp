@@ -1,4 +1,4 @@
-// Which robots are known, and that others are not guessed.
+// The table of known robots; unknown robots must not get guessed parameters.
 
 #include "drivers/pioneer/robot_parameters.hpp"
 
@@ -42,7 +42,7 @@ TEST(PioneerRobotParameters, OfEachKind) {
   }
 }
 
-/// The rows `| kind | mm | units |` of the owner's document.
+/// The rows `| kind | mm | units |` of docs/pioneer.md.
 std::vector<std::pair<std::string, RobotParameters>> documented_kinds() {
   std::ifstream document(azimuth::test::source_folder() / "docs/pioneer.md");
   std::vector<std::pair<std::string, RobotParameters>> kinds;

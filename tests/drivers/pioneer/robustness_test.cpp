@@ -1,4 +1,4 @@
-// Millions of packets, good, damaged and made up.
+// Millions of valid, damaged and random packets.
 
 #include <gmock/gmock.h>
 #include <random>
@@ -14,14 +14,14 @@ using Random = std::mt19937_64;
 
 std::uint8_t any_byte(Random& random) { return static_cast<std::uint8_t>(random()); }
 
-/// A good packet of 2 to 65 bytes.
+/// A valid packet of 2 to 65 bytes.
 Frame any_frame(Random& random) {
   std::array<std::uint8_t, 64> data{};
   for (auto& byte : data) byte = any_byte(random);
   return encode_frame(ByteView(data).first(2 + random() % 63));
 }
 
-/// Something that was a packet: bits flipped, cut off, bytes lost or put in; or only noise.
+/// Damages a packet: flipped bits, truncation, lost or inserted bytes, or noise only.
 void damage(ByteVector& bytes, Random& random) {
   const auto at = static_cast<std::ptrdiff_t>(random() % bytes.size());
   switch (random() % 5) {
@@ -43,14 +43,14 @@ void damage(ByteVector& bytes, Random& random) {
 }
 
 #ifdef AZIMUTH_ADDRESS_SANITIZER
-constexpr int kSlower = 20;  // under it
+constexpr int kSlower = 20;  // with this sanitizer
 #else
 constexpr int kSlower = 1;
 #endif
 
-// Behind five million damaged packets stand five million good ones. One is hidden only where a wrong packet that
-// reaches into it has the right checksum by chance: once in 65536, and once in 256 when just the last byte of the wrong
-// one is missing, so that the header of the good one takes its place.
+// Five million damaged packets, each followed by a valid one. A valid packet may be hidden only if a wrong packet that
+// extends into it has a valid checksum by chance: once in 65536, or once in 256 if only the last byte of the wrong
+// packet is missing and the header of the valid one takes its place.
 TEST(PioneerRobustness, OfTenMillionPacketsTheGoodOnesAreFound) {
   constexpr int kPairs = 5'000'000 / kSlower;
   Random random(1);
@@ -77,7 +77,7 @@ TEST(PioneerRobustness, OfTenMillionPacketsTheGoodOnesAreFound) {
   EXPECT_EQ(in_packets + scanner.skipped_bytes(), sent);
 }
 
-/// Mostly packets with ids that mean something.
+/// A script of mostly packets with meaningful ids.
 ByteVector any_script(Random& random) {
   constexpr std::array<std::uint8_t, 12> kIds{0, 1, 2, 0x20, 0x32, 0x33, 0x90, 0x98, 0xF0, 0xFE, 0xFF, 0xFA};
   ByteVector script;

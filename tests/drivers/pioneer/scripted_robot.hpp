@@ -1,5 +1,5 @@
 #pragma once
-// A controller at the far end of a pseudo terminal or a TCP connection, polled by the test's own thread.
+// A controller at the other end of a pseudo terminal or a TCP connection, polled by the test's own thread.
 
 #include <array>
 #include <cstdlib>
@@ -21,7 +21,7 @@ inline int checked(int returned, const char* what) {
   return returned;
 }
 
-/// A pseudo terminal with a controller on it. A pseudo terminal has no baud rate, so neither has this robot.
+/// A controller on a pseudo terminal, which has no baud rate.
 class PtyRobot {
  public:
   explicit PtyRobot(FakeController& controller) : controller_(controller) {
@@ -34,7 +34,7 @@ class PtyRobot {
   }
   const std::string& device() const { return device_; }
 
-  /// Answers what came.
+  /// Answers the received bytes.
   void serve() {
     std::array<std::uint8_t, 256> bytes{};
     ssize_t size = 0;
@@ -55,7 +55,7 @@ class PtyRobot {
   std::string device_;
 };
 
-/// A listening socket on the loopback interface with a controller behind it.
+/// A controller behind a listening socket on the loopback interface.
 class TcpRobot {
  public:
   explicit TcpRobot(FakeController& controller) : controller_(controller) {

@@ -1,5 +1,5 @@
 #pragma once
-// A session and a controller joined by a line of virtual time.
+// A session and a controller, connected by a line in virtual time.
 
 #include <algorithm>
 #include <cstdint>
@@ -27,7 +27,7 @@ class SessionBench {
   FakeController controller;
   Session session;
   Clock::time_point now{1h};
-  bool connected = true;  // false: the line is cut, both ways
+  bool connected = true;  // false: the line is cut in both directions
   int gave_up = 0, ended = 0;
   int line_baud = 0;
 
@@ -36,7 +36,7 @@ class SessionBench {
     act();
   }
 
-  /// Time passes in steps of 10 ms; a controller in a session sends every 100 ms.
+  /// Runs in steps of 10 ms; a controller in a session sends every 100 ms.
   void run(Clock::duration time) {
     for (const auto end = now + time; now < end;) {
       now += 10ms;
@@ -46,7 +46,7 @@ class SessionBench {
     }
   }
 
-  /// Bytes from the robot.
+  /// Receives bytes from the robot.
   void hear(ByteView bytes, int at_baud) {
     if (!connected || (has_baud_ && at_baud != line_baud)) return;
     scanner_.add(bytes, now);
@@ -61,7 +61,7 @@ class SessionBench {
     act();
   }
 
-  /// How often the robot got a command.
+  /// Number of times that the robot received a command.
   std::int64_t count(const Frame& frame) const { return std::ranges::count(controller.commands, data_of(frame)); }
 
  private:

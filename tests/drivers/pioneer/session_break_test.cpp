@@ -1,4 +1,4 @@
-// What a session does when its line breaks, its robot restarts or its process ends.
+// Behaviour of a session when its line breaks, its robot restarts or its process ends.
 
 #include <gmock/gmock.h>
 #include <memory>
@@ -15,7 +15,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using namespace std::chrono_literals;
 
-/// It may have counted on and only be silent; after so long that its position may have wrapped, it may as well end.
+/// A silent controller may still count, so its session must not be closed. After so long that its position may have
+/// wrapped, it may be closed.
 TEST(PioneerSession, SaysNothingThatEndsItsOwnSessionWhileThatMayGoOn) {
   for (const bool has_baud : {false, true}) {
     SessionBench bench({}, has_baud);
@@ -34,7 +35,7 @@ TEST(PioneerSession, SaysNothingThatEndsItsOwnSessionWhileThatMayGoOn) {
   }
 }
 
-/// A session that runs, whose line is then cut for `outage`.
+/// A running session whose line is then cut for `outage`.
 void cut_line(SessionBench& bench, Clock::duration outage) {
   bench.begin();
   bench.run(3s);
@@ -60,7 +61,7 @@ TEST(PioneerSession, GoesOnWithItsOwnAfterABreakOfTheLine) {
 
 TEST(PioneerSession, OpensAnewWhenThePositionMayHaveWrapped) {
   SessionBench bench;
-  cut_line(bench, 8s);  // 17.6 m at most, of 16.4 m that can be told apart
+  cut_line(bench, 8s);  // up to 17.6 m, but only 16.4 m are unambiguous
   bench.begin();
   bench.run(2s);
   EXPECT_EQ(bench.session.phase(), SessionPhase::running);
@@ -133,7 +134,7 @@ TEST(PioneerSession, EndsCleanly) {
   EXPECT_EQ(bench.session.phase(), SessionPhase::ended);
 }
 
-/// Another process's session at the same controller, which goes on with `bench`'s after `away`.
+/// The session of the next process at the same controller, which resumes the session of `bench` after `away`.
 std::unique_ptr<SessionBench> next_process(const SessionBench& bench, Clock::duration away,
                                            const PioneerSettings& settings = {}) {
   auto next = std::make_unique<SessionBench>(settings);
@@ -173,7 +174,8 @@ TEST(PioneerSession, DoesNotGoOnWhenThePositionMayHaveWrappedMeanwhile) {
   SessionBench bench;
   bench.begin();
   bench.run(1s);
-  const auto next = next_process(bench, 8s);  // 17.6 m, and the counter shows 16.4 to either side
+  // Up to 17.6 m, but the counter is unambiguous up to 16.4 m in either direction.
+  const auto next = next_process(bench, 8s);
   next->begin();
   next->run(2s);
   EXPECT_EQ(next->session.phase(), SessionPhase::running);

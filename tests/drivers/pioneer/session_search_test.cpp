@@ -1,4 +1,4 @@
-// How a session finds the robot: at which rate, over TCP, behind what an earlier one left.
+// How a session finds the robot: at any baud rate, over TCP, and after remains of an earlier session.
 
 #include <gmock/gmock.h>
 
@@ -37,7 +37,8 @@ TEST(PioneerSession, HasNoBaudRateOverTcp) {
   EXPECT_EQ(bench.count(encode_command(Command::host_baud, 4)), 0);
 }
 
-/// What hinders a synchronisation is ended by the last words on a connection, and the next one begins with SYNC0.
+/// The last commands on a connection end any state that prevents synchronisation; the next connection starts with
+/// SYNC0.
 TEST(PioneerSession, OverTcpGivesUpAfterOneRound) {
   SessionBench bench({}, false);
   std::vector<std::int64_t> closes, opens;
@@ -57,7 +58,7 @@ TEST(PioneerSession, OverTcpGivesUpAfterOneRound) {
   EXPECT_THAT(opens, ElementsAre(0, 0, 1, 0, 0)) << "a controller may hang half way through a synchronisation";
 }
 
-/// A radio link, or a server that is busy. The answer to the first SYNC0 comes after the second was sent.
+/// A radio link or a busy server: the answer to the first SYNC0 arrives after the second was sent.
 TEST(PioneerSession, OverTcpAnswersMayTakeLong) {
   SessionBench bench({}, false);
   bench.controller.answers_nothing = true;

@@ -1,4 +1,4 @@
-// The conversation with the controller, in virtual time.
+// The dialogue with the controller, in virtual time.
 
 #include "drivers/pioneer/session.hpp"
 

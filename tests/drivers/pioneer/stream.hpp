@@ -1,5 +1,5 @@
 #pragma once
-// Streams of bytes for tests of the Pioneer driver.
+// Byte streams for the tests of the Pioneer driver.
 
 #include <cstdint>
 #include <initializer_list>
@@ -15,12 +15,12 @@ inline ByteVector to_vector(ByteView bytes) { return {bytes.begin(), bytes.end()
 
 inline void append(ByteVector& stream, ByteView bytes) { stream.insert(stream.end(), bytes.begin(), bytes.end()); }
 
-/// What is inside the frame.
+/// The data inside the frame.
 inline ByteVector data_of(const Frame& frame) {
   return to_vector(frame.view().subspan(3, frame.size - kFrameOverhead));
 }
 
-/// Data of all packets the scanner finds, fed piece by piece of `piece` bytes.
+/// The data of all packets that the scanner finds in the stream, fed in pieces of `piece` bytes.
 inline std::vector<ByteVector> scan(PacketScanner& scanner, ByteView stream, std::size_t piece = 64) {
   std::vector<ByteVector> found;
   while (!stream.empty()) {

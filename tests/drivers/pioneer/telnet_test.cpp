@@ -1,4 +1,4 @@
-// A serial bridge in telnet mode: what it makes of the robot's bytes.
+// A serial bridge in telnet mode, which modifies the robot's bytes.
 
 #include "drivers/pioneer/telnet.hpp"
 
@@ -12,7 +12,7 @@ namespace {
 using testing::ElementsAre;
 using Bytes = std::vector<std::uint8_t>;
 
-/// As it comes, in pieces of that size.
+/// Undoes telnet in pieces of `piece` bytes.
 Bytes undone(Telnet& telnet, const Bytes& bytes, std::size_t piece) {
   Bytes robots;
   for (std::size_t begin = 0; begin < bytes.size(); begin += piece) {

@@ -12,7 +12,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// What a clock shows at a true time, in seconds.
+/// Reading of a clock as a function of true time, both in seconds.
 using Shows = std::function<double(double)>;
 
 double right(double t_s) { return t_s; }
@@ -22,12 +22,12 @@ Shows set_by(double by_s, double at_s) {
 
 Stamp at(double t_s) { return Stamp{duration_from_seconds(t_s)}; }
 
-/// A minute of odometry at 10 Hz and bearings at 5 Hz, which come 30 ms after their stamps.
+/// A minute of odometry at 10 Hz and bearings at 5 Hz. Bearings arrive 30 ms after their stamps.
 struct Recording {
   Shows robot = right, camera = right, recorder = right;
   std::function<bool(double)> camera_is_there = [](double) { return true; };
   std::function<bool(double)> is_recorded = [](double) { return true; };
-  std::function<double(double)> came_at_s = right;  ///< what waits on the way comes later
+  std::function<double(double)> came_at_s = right;  ///< arrival time; delayed samples arrive later
 
   struct Sample {
     double true_s = 0.0, came_s = 0.0, said_s = 0.0;
@@ -48,8 +48,8 @@ struct Recording {
 
 struct Mended {
   std::vector<ClockJump> jumps;
-  double worst_s = 0.0;     ///< of a stamp, off the true one, but for what all are off
-  double worst_side_s = 0;  ///< of bearings beside odometry
+  double worst_s = 0.0;     ///< largest error of a stamp, apart from a common offset
+  double worst_side_s = 0;  ///< largest error of bearings relative to odometry
   std::size_t readings = 0, sets = 0;
 };
 

@@ -13,7 +13,7 @@ constexpr CsvColumn kColumns[] = {{"a"}, {"b"}, {"note", false}};
 
 struct Read {
   std::vector<std::string> errors;
-  std::vector<std::string> rows;  // a|b|note
+  std::vector<std::string> rows;  // format: a|b|note
 };
 
 Read read(std::string_view text) {

@@ -1,4 +1,4 @@
-// Our log files against liblcm's own reader and writer, and against trouble with the file.
+// Azimuth's log files with liblcm's own reader and writer, and errors of the file.
 
 #include "drivers/storage/event_log.hpp"
 

@@ -1,4 +1,4 @@
-// Runs whose images lie in an LCM log.
+// Runs whose images are in an LCM log.
 
 #include <algorithm>
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 #pragma once
-// Logs made event by event, and what they are collected to.
+// Logs built event by event, and the runs collected from them.
 
 #include <cstdint>
 #include <stdexcept>
@@ -15,7 +15,7 @@
 
 namespace azimuth::test {
 
-/// A log made event by event.
+/// Builds a log event by event.
 class LogText {
  public:
   template <class Message>
@@ -28,7 +28,7 @@ class LogText {
     append_event(bytes_, {number_++, recorded_us_, channel, data});
     return *this;
   }
-  /// Of what is added from here on.
+  /// Sets the recording time of all events added later.
   LogText& recorded_at(std::int64_t utime_us) {
     recorded_us_ = utime_us;
     return *this;

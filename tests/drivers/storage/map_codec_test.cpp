@@ -50,7 +50,7 @@ RC_GTEST_PROP(MapCodec, GivesBackEveryBit, (unsigned seed)) {
   const MapSnapshot map = random_map(seed, settings);
   const std::vector<std::byte> bytes = encoded(map);
   RC_ASSERT(bytes.size() == encoded_size(map));
-  MapSnapshot again = random_map(seed + 1);  // what was there must not shine through
+  MapSnapshot again = random_map(seed + 1);  // earlier content, which must be replaced
   const std::optional<std::string> problem = decode_map(bytes, again);
   RC_ASSERT(!problem);
   expect_equal(again, map);
@@ -85,7 +85,7 @@ TEST(MapCodec, SaysWhatIsWrong) {
   EXPECT_EQ(problem_of(bytes), "is damaged: its checksum is wrong");
 }
 
-/// Each breaks a sound map in one way that its checksum cannot show.
+/// One error in an otherwise valid map, which the checksum does not detect.
 struct Nonsense {
   const char* what;
   std::function<void(MapSnapshot&)> make;
@@ -137,7 +137,7 @@ TEST(MapCodec, TakesARobotThatIsCertainOfItsPose) {
   EXPECT_FALSE(problem_of(encoded(map)));
 }
 
-/// With a checksum that holds.
+/// Renews the checksum.
 std::vector<std::byte> sealed(std::vector<std::byte> bytes) {
   const std::size_t size = bytes.size() - 4;
   const auto sum = static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), size));

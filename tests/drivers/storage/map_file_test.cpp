@@ -34,7 +34,7 @@ void damage(const fs::path& file) {
 class MapFile : public testing::Test {
  protected:
   void save(unsigned seed) { ASSERT_TRUE(write_map(encoded(seed), file_)); }
-  /// The seed of what is read.
+  /// The seed of the map that is read; 0: none.
   unsigned read() const {
     const auto loaded = read_map(file_);
     if (!loaded) return 0;
@@ -83,18 +83,18 @@ TEST_F(MapFile, KeepsAGoodMapRatherThanADamagedOne) {
 }
 
 TEST_F(MapFile, SurvivesAnEndAtAnyMoment) {
-  // GIVEN the states that a save leaves behind when the process ends between two of its steps
+  // GIVEN the files that an interrupted save leaves behind
   save(1);
   save(2);
   const fs::path fresh = fs::path(file_) += ".new";
-  put(fresh, content(file_).substr(0, 100));  // while it was written
+  put(fresh, content(file_).substr(0, 100));  // interrupted while writing
   EXPECT_EQ(read(), 2u);
   put(fresh, content(file_));
-  fs::rename(file_, previous_map(file_));  // between the renames
+  fs::rename(file_, previous_map(file_));  // interrupted between the renames
   EXPECT_EQ(read(), 2u);
-  // WHEN the next one is saved
+  // WHEN the next map is saved
   save(3);
-  // THEN nothing of that is left
+  // THEN no remains are left
   EXPECT_EQ(read(), 3u);
   EXPECT_EQ(read_map_only(previous_map(file_))->bytes, encoded(2));
   EXPECT_FALSE(fs::exists(fresh));
@@ -112,7 +112,7 @@ TEST_F(MapFile, NamesEverythingThatIsWrongWhenNothingCanBeRead) {
 
 TEST_F(MapFile, IsNotTouchedWhenTheDiskRefuses) {
   save(1);
-  fs::create_directory(fs::path(file_) += ".new");  // nothing can be written there
+  fs::create_directory(fs::path(file_) += ".new");  // makes writing impossible
   const auto written = write_map(encoded(2), file_);
   ASSERT_FALSE(written);
   EXPECT_NE(written.error().front().message.find("cannot be written"), std::string::npos);

@@ -1,4 +1,4 @@
-// Every run that is at hand loads, and survives the way through a log bit for bit.
+// Every available run must load and survive a round trip through a log bit by bit.
 
 #include <gmock/gmock.h>
 

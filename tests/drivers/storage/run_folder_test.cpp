@@ -11,7 +11,7 @@ using ::testing::HasSubstr;
 
 class RunFolder : public ::testing::Test {
  protected:
-  /// Errors of loading, as text; empty when the run loads.
+  /// The errors of loading as text; empty if the run loads.
   std::string errors() const {
     const auto run = load_run(folder_.path());
     return run ? "" : text(run.error());
@@ -142,8 +142,8 @@ TEST_F(RunFolder, ARigMayComeLater) {
   EXPECT_EQ(
       text(load_run(folder_.path()).error()),
       in("rig.toml") + ": there is none yet; give one with --rig FILE, or make one first: azimuth calibrate " +
-          folder_.path().string() + " --out " + in("rig.toml") + ", for a mirror camera; or azimuth settings --rig > " +
-          in("rig.toml") +
+          folder_.path().string() + " --out " + in("rig.toml") +
+          ", for a mirror camera; or azimuthd --print-rig-settings > " + in("rig.toml") +
           ", every key at its default, to be changed there (camera.identities = true where bearings carry names)\n");
   EXPECT_FALSE(load_run(folder_.path(), {.rig_file = folder_ / "gone.toml", .rig_may_come_later = true}))
       << "one that was asked for";

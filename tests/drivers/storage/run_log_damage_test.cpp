@@ -1,4 +1,4 @@
-// Logs that hold no run, or not all of one.
+// Logs without a run, or with an incomplete one.
 
 #include <algorithm>
 #include <gmock/gmock.h>

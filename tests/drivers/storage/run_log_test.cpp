@@ -142,7 +142,7 @@ TEST(RunLog, RigMayStandBesideTheLog) {
   EXPECT_EQ(text(load_run(folder / "drive.lcm").error()),
             (folder / "drive.lcm").string() + ": holds no rig.toml on AZIMUTH_DOCUMENT, and beside it " +
                 (folder / "drive.rig.toml").string() +
-                ": cannot be opened: No such file or directory; give it with --rig FILE, or find one: azimuth convert "
+                ": cannot be opened: No such file or directory; give it with --rig FILE, or find one: azimuth import "
                 "makes a "
                 "run folder without\n");
   const auto later = load_run(folder / "drive.lcm", {.rig_may_come_later = true});
@@ -180,9 +180,9 @@ pose_t bot_pose(std::int64_t utime_us, double x_m, double heading_rad) {
 
 TEST(RunLog, OdometryOfOthersIsReadFromItsChannel) {
   LogText log;
-  log.rig().bearings(0).odometry(7);  // our own is not what was asked for
+  log.rig().bearings(0).odometry(7);  // Azimuth's own odometry must be ignored
   log.add("POSE", bot_pose(0, 1.0, 0.5)).add("POSE", bot_pose(100'000, 1.2, 0.6));
-  log.add("POSE", bot_pose(200'000, 90.0, 0.0));  // farther than it can have rolled
+  log.add("POSE", bot_pose(200'000, 90.0, 0.0));  // farther than the robot can have rolled
   log.add("POSE", Buffer(112));
   pose_t no_rotation = bot_pose(300'000, 90.1, 0.0);
   no_rotation.orientation[0] = 0.0;
@@ -222,7 +222,7 @@ TEST(RunLog, PartsThatALoggerSplitAreOneRun) {
   EXPECT_EQ(run->bearings.size(), 2U);
 }
 
-/// lcm-logger numbers the recordings of a day in the same way.
+/// lcm-logger numbers the separate recordings of a day in the same way as the parts of one recording.
 TEST(RunLog, TheNextRecordingOfADayIsNoPart) {
   const test::TemporaryFolder folder;
   write_log(folder / "log.00", LogText().recorded_at(1'000'000).rig().odometry(0).bearings(0));

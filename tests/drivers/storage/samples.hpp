@@ -1,5 +1,5 @@
 #pragma once
-// Small runs for tests of how they are kept, and how to compare them.
+// Small runs for the tests of storage, and their comparison.
 
 #include <algorithm>
 #include <cstdint>
@@ -30,7 +30,7 @@ inline std::string read(const std::filesystem::path& file) {
   return out.str();
 }
 
-/// Everything a run can hold, with values that do not come out of decimal text by luck.
+/// A run with all kinds of content. Its values are not exactly representable in short decimal text.
 inline Run example_run(std::size_t steps = 6, unsigned seed = 1) {
   std::mt19937_64 bits(seed);
   const auto random = [&bits](double scale) { return scale * (static_cast<double>(bits() >> 11U) * 0x1p-53 - 0.5); };
@@ -38,7 +38,7 @@ inline Run example_run(std::size_t steps = 6, unsigned seed = 1) {
   Run run;
   run.rig_toml = "front_end = \"bearings\"\n";
   for (std::size_t i = 0; i < steps; ++i) {
-    const auto t_us = static_cast<std::int64_t>(i) * 100'000 - 50'001;  // odometers with a lag begin before 0
+    const auto t_us = static_cast<std::int64_t>(i) * 100'000 - 50'001;  // odometers with a lag start before 0
     run.odometry.push_back({stamp_from_us(t_us), i, 0, pose()});
     run.truth.push_back({stamp_from_us(t_us + 1), pose()});
     BearingSet set{stamp_from_us(t_us + (i % 2 == 0 ? 0 : 33'333)), run.bearings.size(), {}};
@@ -57,14 +57,14 @@ inline Run example_run(std::size_t steps = 6, unsigned seed = 1) {
   return run;
 }
 
-/// Those of a log are elsewhere than those of a folder.
+/// Frames of a log are located differently from those of a folder, so their file is not compared.
 inline bool same_frames(const std::vector<FrameFile>& a, const std::vector<FrameFile>& b) {
   return std::ranges::equal(a, b, [](const FrameFile& x, const FrameFile& y) {
     return x.stamp == y.stamp && (x.part || y.part || x.file == y.file);
   });
 }
 
-/// Everything but name, place and what was skipped.
+/// Compares everything except the name, the location and the skipped samples.
 inline void expect_same_samples(const Run& a, const Run& b) {
   EXPECT_EQ(a.rig_toml, b.rig_toml);
   EXPECT_TRUE(same_frames(a.frames, b.frames));

@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 
 constexpr std::int64_t kFirstReading_us = 1'000'000;
 
-/// Writes segments as a daemon does: each with its mark and documents, then one reading and one set a call.
+/// Writes segments like the daemon: mark and documents first, then one reading and one bearing set per call.
 class SegmentText {
  public:
   SegmentText(const std::filesystem::path& file, const SegmentMark& mark, const std::string& prefix = "")
@@ -41,7 +41,7 @@ class SegmentText {
     message.utime = number;
     message.step = number;
     message.x_m = 0.1 + static_cast<double>(number);
-    message.heading_rad = 7.0;  // beyond [-pi, pi): must not be touched
+    message.heading_rad = 7.0;  // outside [-pi, pi); must be kept unchanged
     message.covariance[8] = 0.3;
     message.odom_y_m = -0.7;
     message.predicted = predicted ? 1 : 0;

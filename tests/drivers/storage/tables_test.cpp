@@ -191,7 +191,7 @@ TEST(LandmarksTable, NamesEachWrongValue) {
             "t.csv:4: landmark_id 1 is repeated\n");
 }
 
-/// Table -> rows -> table, over random runs.
+/// A round trip of random runs through the tables.
 RC_GTEST_PROP(Tables, ComeBackBitForBit, (unsigned seed)) {
   const Run run = test::example_run(20, seed);
   FileErrors errors;

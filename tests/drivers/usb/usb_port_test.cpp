@@ -60,7 +60,7 @@ TEST(UsbPort, IsTheInnermostDeviceOfAPath) {
   EXPECT_EQ(text_of(usb_port_in_path(pci + "usb1/1-2/1-2:1.0/i2c-4/4-5")), "1-2") << "an I2C bus in a USB device";
 }
 
-/// /dev/null stands for a device that has a place in a sysfs of the test's own.
+/// /dev/null stands for a device; the test's own sysfs tells where it is connected.
 class NodeTest : public ::testing::Test {
  protected:
   void lead_to(const std::string& device) const {

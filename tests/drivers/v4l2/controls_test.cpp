@@ -11,7 +11,7 @@ using testing::IsEmpty;
 
 class V4l2ControlsTest : public testing::Test {
  protected:
-  /// Opens and gives what was refused.
+  /// Opens the camera and returns the refused settings.
   std::vector<std::string> refused(const V4l2Settings& settings) {
     opened_ = OpenedStream{};
     opened_ = open_v4l2(settings, device_);
@@ -19,7 +19,7 @@ class V4l2ControlsTest : public testing::Test {
     return opened_ ? (*opened_)->description().refused : std::vector<std::string>{};
   }
   int value(std::uint32_t id) const { return device_.controls.at(id).value; }
-  /// As webcams have it.
+  /// Adds the exposure controls of a typical webcam.
   void add_exposure() {
     device_.controls[V4L2_CID_EXPOSURE_AUTO] = {.maximum = 3, .value = 0, .menu = {1, 3}};
     device_.controls[V4L2_CID_EXPOSURE_AUTO_PRIORITY] = {.maximum = 1, .value = 1};

@@ -1,5 +1,5 @@
 #pragma once
-// A camera behind the system calls, with a script of misbehaviour. Its nodes stand in a folder of the test's own.
+// A simulated camera behind the system calls, with scripted failures. Its device nodes are in a temporary folder.
 
 #include <cstdint>
 #include <deque>
@@ -18,8 +18,8 @@ namespace azimuth::test {
 
 struct FakeControl {
   int minimum = 0, maximum = 255, value = 0;
-  std::vector<int> menu{};  // items it has; empty: no menu
-  bool stubborn = false;    // takes a value and keeps its own
+  std::vector<int> menu{};  // valid items; empty: not a menu
+  bool stubborn = false;    // accepts a value, but keeps its own
 };
 
 struct FakeV4l2Format {
@@ -29,49 +29,49 @@ struct FakeV4l2Format {
   std::vector<std::pair<int, int>> sizes{{640, 480}, {320, 240}};
 };
 
-/// What the device fills a buffer with.
+/// Content and metadata of a filled buffer.
 struct FakeFill {
   std::uint32_t sequence = 0;
   std::int64_t stamp_us = 0;
   std::uint32_t flags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
-  std::optional<std::uint32_t> bytesused{};  // else a whole image
-  std::optional<std::uint32_t> index{};      // else the buffer that waits longest
-  std::uint32_t data_offset = 0;             // with planes
-  int value = 0;                             // of every byte
+  std::optional<std::uint32_t> bytesused{};  // default: a whole image
+  std::optional<std::uint32_t> index{};      // default: the buffer that has waited longest
+  std::uint32_t data_offset = 0;             // for multi-planar formats
+  int value = 0;                             // value of every byte
 };
 
 class FakeV4l2 final : public v4l2::Calls {
  public:
   FakeV4l2();
 
-  // What it is.
+  // Properties.
   std::string card = "Fake Camera";
   std::uint32_t capabilities = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
   std::vector<FakeV4l2Format> formats{{V4L2_PIX_FMT_YUYV, 2}, {V4L2_PIX_FMT_MJPEG, 0}};
   std::map<std::uint32_t, FakeControl> controls;
-  std::uint32_t padding_bytes = 0;  // of each row
+  std::uint32_t padding_bytes = 0;  // per row
   std::uint32_t most_buffers = 32, least_buffers = 0;
-  std::uint32_t buffer_bytes = 0;  // 0: as the image needs
+  std::uint32_t buffer_bytes = 0;  // 0: as large as the image requires
   bool has_rates = true;
   std::uint32_t field = V4L2_FIELD_NONE;
   std::uint32_t stamp_flags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
 
-  // What happens to it.
+  // Failures.
   std::map<unsigned long, int> failing;  // errno by request
-  int fail_after = -1;                   // so many calls that work, then `failure`, always
+  int fail_after = -1;                   // after this number of successful calls every call fails with `failure`
   int failure = 5;
   short poll_events = 0;
   int open_error = 0, map_error = 0;
   std::chrono::steady_clock::time_point clock{std::chrono::seconds(1000)};
 
-  /// Adds a node and what sysfs says of it; `port` empty: no USB device.
+  /// Adds a node and its sysfs entries; empty `port`: not a USB device.
   void add_node(const std::string& node, const std::string& port, const std::string& vendor = "1d6b",
                 const std::string& product = "0105", const std::string& serial = "");
   void remove_node(const std::string& node);
-  /// A node that gives no images, as cameras have them for metadata.
+  /// Marks a node that delivers no images, such as a camera's metadata node.
   void set_metadata(const std::string& node) { metadata_.push_back(node); }
 
-  /// Fills the next buffer now. False: none is queued.
+  /// Fills the next buffer now; false: none is queued.
   bool fill(FakeFill image);
 
   std::filesystem::path nodes() const override { return folder_.path() / "dev"; }
@@ -90,7 +90,7 @@ class FakeV4l2 final : public v4l2::Calls {
   std::size_t buffers() const { return memory_.size(); }
   int open_descriptors() const { return open_; }
   int calls() const { return calls_; }
-  std::string opened_node;  // last
+  std::string opened_node;  // the last one
   std::uint32_t code() const { return code_; }
   double rate_hz() const { return rate_hz_; }
 
@@ -117,7 +117,7 @@ class FakeV4l2 final : public v4l2::Calls {
   int width_ = 640, height_ = 480;
   double rate_hz_ = 30.0;
   std::vector<std::vector<std::byte>> memory_;
-  std::vector<std::vector<std::byte>> orphans_;  // given up while mapped
+  std::vector<std::vector<std::byte>> orphans_;  // freed while still mapped
   std::deque<std::uint32_t> queued_;
   std::deque<std::pair<std::uint32_t, FakeFill>> filled_;
   std::size_t mapped_ = 0;

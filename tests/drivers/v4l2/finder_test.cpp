@@ -13,7 +13,7 @@ using testing::HasSubstr;
 
 class V4l2FinderTest : public testing::Test {
  protected:
-  /// The node found, or the trouble.
+  /// The node that was opened, or the error text.
   std::string found(const std::string& name) {
     const auto opened = v4l2::open_named(device_, name);
     if (!opened) return opened.error().text;

@@ -1,5 +1,5 @@
 #pragma once
-// A stream of a camera that is not there.
+// A stream of a simulated camera.
 
 #include <gtest/gtest.h>
 #include <poll.h>
@@ -23,7 +23,7 @@ class V4l2StreamTest : public testing::Test {
     return ::poll(&ready, 1, 0) == 1;
   }
 
-  FakeV4l2 device_;  // outlives the frames
+  FakeV4l2 device_;  // must outlive the frames
   OpenedStream opened_;
   Frame frame_;
 };

@@ -1,4 +1,4 @@
-// Streams whose camera fails, at whatever call, or is none.
+// Streams whose camera fails at any call, or is not a camera.
 
 #include <cerrno>
 #include <gmock/gmock.h>
@@ -54,7 +54,8 @@ TEST_F(V4l2StreamTest, AnErrorThatOnlyPollShowsEndsTheStream) {
   }
 }
 
-/// Whatever call is the first that fails, and all after it: opening says so, and nothing is left behind.
+/// The first n calls succeed and all later ones fail, for every n: opening must report the failure and leave nothing
+/// open.
 TEST_F(V4l2StreamTest, EveryCallMayFailInTurn) {
   open();
   opened_ = OpenedStream{};
@@ -68,7 +69,7 @@ TEST_F(V4l2StreamTest, EveryCallMayFailInTurn) {
   for (const int error : {EIO, ENODEV, ENOMEM, EINVAL, ENOTTY}) {
     int refusals = 0;
     for (int i = 0; i < calls; ++i) {
-      device_.fail_after = device_.calls() + 1 + i;  // the opening itself works
+      device_.fail_after = device_.calls() + 1 + i;  // opening itself succeeds
       device_.failure = error;
       const OpenedStream opened = open_v4l2({.buffers = 4}, device_);
       if (!opened) {
@@ -117,7 +118,7 @@ TEST_F(V4l2StreamTest, WhatIsNoCameraIsRefused) {
   device_.capabilities = V4L2_CAP_VIDEO_OUTPUT | V4L2_CAP_STREAMING;
   EXPECT_THAT(open_v4l2({.device = (device_.nodes() / "video0").string()}, device_).error().text,
               HasSubstr("is no camera that streams"));
-  device_.capabilities = V4L2_CAP_VIDEO_CAPTURE;  // by read(2) only
+  device_.capabilities = V4L2_CAP_VIDEO_CAPTURE;  // supports read(2) only
   EXPECT_FALSE(open_v4l2({}, device_));
   EXPECT_EQ(device_.open_descriptors(), 0);
 }
@@ -141,7 +142,7 @@ TEST_F(V4l2StreamTest, FramesOutliveTheStream) {
   EXPECT_EQ(device_.mapped(), 4U) << "of the second stream";
 }
 
-/// The driver of all cameras over this one.
+/// The common camera driver on top of this stream.
 TEST_F(V4l2StreamTest, IsFoundAgainUnderAnotherNumber) {
   device_.remove_node("video0");
   device_.add_node("video0", "1-2", "1d6b", "0105", "A1");

@@ -20,7 +20,7 @@ Buffer bytes(std::string_view text) {
 
 std::string text(Bytes data) { return {reinterpret_cast<const char*>(data.data()), data.size()}; }
 
-/// An event whose data tells its number.
+/// An event whose data contain its number.
 Buffer event(std::int64_t number) {
   Buffer out;
   const Buffer data =
@@ -157,7 +157,7 @@ TEST(EventScanner, ChangedBytesNeverBreakAccounting) {
   }
 }
 
-/// What begins an event that would reach far, over what comes after it.
+/// The header of an event that would extend far over the bytes after it.
 Buffer far_reaching_header() {
   Buffer header = event(0);
   header.resize(kEventHeaderSize);
@@ -167,7 +167,7 @@ Buffer far_reaching_header() {
 }
 
 TEST(EventScanner, WorkIsLinearInHostileLogs) {
-  Buffer syncs;  // none is followed by another, and none holds an event
+  Buffer syncs;  // no sync word is followed by a valid event
   std::uint64_t headers = 0;
   for (; syncs.size() < (std::size_t{4} << 20U); ++headers) {
     std::ranges::copy(far_reaching_header(), std::back_inserter(syncs));

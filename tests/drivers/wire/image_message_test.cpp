@@ -44,7 +44,7 @@ TEST(ImageMessage, EveryFormatComesBack) {
   }
 }
 
-/// The names that bot_core gives the numbers of the formats are not ours to change.
+/// bot_core defines the names and numbers of the formats; they must not change.
 TEST(ImageMessage, NumbersAreFourLetterCodes) {
   const auto code = [](const char(&letters)[5]) {
     std::int32_t number = 0;

@@ -1,5 +1,5 @@
-// The wire format is a promise: a fingerprint that changes cuts off every subscriber and every old log. A message that
-// must change gets a new type (`_v2`) instead.
+// The wire format must stay stable: a changed fingerprint makes the messages unreadable for all subscribers and all old
+// logs. A message that must change gets a new type (`_v2`) instead.
 
 #include <azimuth/bearing_t.hpp>
 #include <azimuth/bearings_t.hpp>
@@ -27,7 +27,7 @@ std::uint64_t fingerprint() {
   return static_cast<std::uint64_t>(Message::getHash());
 }
 
-/// What one datagram carries wherever it goes.
+/// Largest message that fits into one datagram everywhere.
 constexpr int kDatagram = 60'000;
 
 TEST(LcmTypes, FingerprintsAreThoseOfTheFirstRelease) {

@@ -1,4 +1,4 @@
-// What cannot be true, or is no message at all, is refused.
+// Impossible values and invalid messages must be refused.
 
 #include <azimuth/pose_t.hpp>
 #include <cmath>
@@ -47,7 +47,7 @@ TEST(Messages, AnotherTypeIsRefused) {
   EXPECT_FALSE(decode_odometry(data));
 }
 
-/// Whether any decoder takes the bytes; that it returns at all is the point of many tests.
+/// Whether any decoder accepts the bytes. Many tests only check that the decoders return at all.
 bool any_decodes(Bytes data) {
   return decode_odometry(data) || decode_bearings(data) || decode_features(data) || decode_map_chunk(data) ||
          decode_document(data) || decode_path(data) || decode_status(data) || decode_sightings(data) ||
@@ -93,7 +93,7 @@ TEST(Messages, CountsThatLieAreRefusedBeforeAnythingIsAllocated) {
                                       {5, path_n},
                                       {6, first_text},
                                       {6, second_text}}) {
-      if (message == 4 && lie == 3) continue;  // is true
+      if (message == 4 && lie == 3) continue;  // this value is correct
       Buffer damaged = data[static_cast<std::size_t>(message)];
       put_int32(damaged, at, lie);
       EXPECT_FALSE(any_decodes(damaged)) << "message " << message << " count " << lie;
@@ -132,7 +132,7 @@ TEST(Messages, BearingsThatCannotBeTrueAreRefused) {
   }
 }
 
-/// So that the estimator's stage can say that they are.
+/// Decoders accept them, so that the estimator's stage can report them.
 TEST(Messages, BearingsInDegreesGetThroughAsTheyAre) {
   bearings_t message = to_message(kSet);
   message.bearings[1].azimuth_rad = 170.0;
@@ -201,8 +201,8 @@ TEST(Messages, TextsThatEndTooEarlyOrNotAtAllAreRefused) {
   }
 }
 
-/// Whether the decoder takes the bytes. What it reads stays the same when it is written and read again, though angles
-/// are wrapped, and samples leave out what they do not need.
+/// Whether the decoder accepts the bytes. Its result must survive encoding and decoding, although angles are wrapped
+/// and samples omit unused parts.
 template <class Decoder, class ToMessage = std::identity>
 bool is_read_for_good(Decoder decode, const Buffer& data, ToMessage to_message_of = {}) {
   const auto read = decode(data);

@@ -1,4 +1,4 @@
-// What is sent comes back as it was.
+// Messages must survive encoding and decoding unchanged.
 
 #include "drivers/wire/messages.hpp"
 
@@ -57,7 +57,7 @@ TEST(Messages, EveryTroubleComesBack) {
 TEST(Messages, FullestFeaturesComeBack) {
   const BearingSet set = test::feature_set(features_t::MAX_FEATURES);
   features_t message;
-  fill_message(test::feature_set(20), message);  // storage is used again
+  fill_message(test::feature_set(20), message);  // reuses the storage
   fill_message(set, message);
   const auto back = decode_features(encoded(message));
   ASSERT_TRUE(back);

@@ -1,5 +1,5 @@
 #pragma once
-// Messages for tests of how they are encoded and read.
+// Messages for the tests of encoding and decoding.
 
 #include <azimuth/pose_t.hpp>
 #include <cstddef>
@@ -40,7 +40,7 @@ inline path_t a_path() {
   return path;
 }
 
-/// Every text has a length of its own.
+/// Each text has a different length.
 inline status_t a_status() {
   status_t status{};
   std::string letters = "few";

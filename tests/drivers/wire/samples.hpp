@@ -1,5 +1,5 @@
 #pragma once
-// Samples for tests of what they are sent and recorded as, and how to compare them.
+// Samples for the tests of messages and recordings, and their comparison.
 
 #include <algorithm>
 #include <bit>
@@ -19,7 +19,7 @@ namespace azimuth::test {
 using Buffer = std::vector<std::byte>;
 inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// A set of features with looks that differ in every byte, each knowing some of the others.
+/// A set of features with descriptors that differ in every byte; each has some of the others as neighbours.
 inline BearingSet feature_set(std::size_t count, std::uint64_t sequence = 1) {
   BearingSet set{stamp_from_us(static_cast<std::int64_t>(sequence) * 100'000), sequence, {}};
   for (std::size_t i = 0; i < count; ++i) {

@@ -1,4 +1,4 @@
-// can_flood: random frames on a CAN interface, as fast as it takes them. `can_flood --help` says how.
+// can_flood sends random frames to a CAN interface as fast as it accepts them. `can_flood --help` describes it.
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
@@ -43,13 +43,13 @@ UniqueFd open_bus(const std::string& interface) {
   address.can_family = AF_CAN;
   address.can_ifindex = static_cast<int>(::if_nametoindex(interface.c_str()));
   if (address.can_ifindex == 0) fail(interface);
-  // What others send is of no interest, and must not fill a buffer.
+  // Receives nothing, so that the frames of others do not fill a buffer.
   if (::setsockopt(fd.get(), SOL_CAN_RAW, CAN_RAW_FILTER, nullptr, 0) != 0) fail("CAN_RAW_FILTER");
   if (::bind(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) fail(interface);
   return fd;
 }
 
-/// False: the interface carries classic frames only.
+/// Enables CAN FD; false if the interface carries only classic frames.
 bool switch_fd_on(int fd, const std::string& interface) {
   ifreq request{};
   interface.copy(request.ifr_name, IFNAMSIZ - 1);
@@ -58,7 +58,7 @@ bool switch_fd_on(int fd, const std::string& interface) {
   return ::setsockopt(fd, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, &on, sizeof on) == 0;
 }
 
-/// A full queue is waited for and an interface that is down as well; one that is gone ends the flood.
+/// Sends a frame. Waits if the queue is full or the interface is down; ends the program if the interface is gone.
 void send(int fd, const guest::FloodFrame& frame, CanFloodCounts& counts) {
   using namespace std::chrono_literals;
   if (::write(fd, &frame.frame, frame.bytes) >= 0) {

@@ -1,4 +1,4 @@
-// lcm_flood: damaged messages and datagrams on an LCM network. `lcm_flood --help` says how.
+// lcm_flood sends damaged messages and datagrams to an LCM network. `lcm_flood --help` describes it.
 
 #include <CLI/CLI.hpp>
 #include <arpa/inet.h>
@@ -25,7 +25,7 @@ struct LcmFloodWords {
   std::uint64_t seed = 1;
 };
 
-/// Group and port of "udpm://GROUP:PORT?...".
+/// The group and the port of an LCM URL "udpm://GROUP:PORT?...".
 sockaddr_in address_of(const std::string& url) {
   const std::size_t group = url.find("//"), port = url.find(':', group);
   sockaddr_in address{};
@@ -38,7 +38,7 @@ sockaddr_in address_of(const std::string& url) {
   return address;
 }
 
-/// For what no LCM library would send. Stays on this machine.
+/// Opens a socket for datagrams that no LCM library would send. They stay on this machine.
 UniqueFd open_socket() {
   UniqueFd fd(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
   const unsigned char hops = 0;

@@ -5,15 +5,15 @@
 
 namespace azimuth::guest {
 
-/// Something done over and over, at a rate or as often as possible, for a time.
+/// Paces a loop at a rate or as fast as possible, for a given time.
 ///
 /// Thread contract: thread-bound.
 class Pacing {
  public:
-  /// `rate_hz` 0: no pause between turns. `seconds` 0: without end.
+  /// A `rate_hz` of 0 means no pause between turns, `seconds` of 0 means no end.
   Pacing(double rate_hz, double seconds) : rate_hz_(rate_hz), seconds_(seconds) {}
 
-  /// Waits for the next turn. False: time is up.
+  /// Waits for the next turn; false when the time is over.
   bool next() {
     if (rate_hz_ > 0.0) std::this_thread::sleep_until(start_ + seconds(static_cast<double>(turns_) / rate_hz_));
     ++turns_;

@@ -7,7 +7,7 @@
 namespace azimuth::guest {
 namespace {
 
-/// What the data length codes of CAN FD stand for.
+/// Number of data bytes for each data length code of CAN FD.
 constexpr std::array<std::uint8_t, 16> kFdLengths{0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 16, 20, 24, 32, 48, 64};
 constexpr std::uint64_t kRemoteOneIn = 8;
 
@@ -27,7 +27,7 @@ std::uint32_t random_number(const CanFloodKinds& kinds, std::uint32_t last, std:
 bool leaves_identifiers(const CanFloodKinds& kinds) {
   if (kinds.first_id > kinds.last_id || kinds.last_id > CAN_EFF_MASK) return false;
   const auto left = [&](std::uint32_t last) {
-    if (kinds.first_id > last) return true;  // then there are no identifiers of this kind to choose from
+    if (kinds.first_id > last) return true;  // the range has no identifiers of this kind
     const std::uint32_t end = std::min(kinds.last_id, last);
     for (std::uint32_t number = kinds.first_id; number <= end; ++number) {
       if (!is_spared(kinds, number)) return true;

@@ -46,13 +46,13 @@ void put_big(Octets& into, std::uint64_t number, unsigned bytes) {
   while (bytes-- > 0) into.push_back(static_cast<std::uint8_t>(number >> (8 * bytes)));
 }
 
-/// Small numbers are likelier to be believed than large ones.
+/// A random size with a random number of bits. Small sizes are frequent, because a subscriber accepts them more often.
 std::uint64_t any_size(std::mt19937_64& random) {
   const std::uint64_t bits = random() % 33;
   return random() & ((std::uint64_t{1} << bits) - 1);
 }
 
-/// Header of a piece: sequence, size of the whole, offset, its number, count of pieces.
+/// Header of a fragment: sequence, size of the message, offset, fragment number, number of fragments.
 void put_piece_header(Octets& into, std::mt19937_64& random) {
   put_big(into, random() % 16, 4);
   put_big(into, any_size(random), 4);
@@ -79,7 +79,7 @@ const Octets& RandomMessages::next() {
   return message_;
 }
 
-/// The fingerprint mostly stays, so that the rest is looked at.
+/// Mostly keeps the fingerprint, so that the subscriber decodes the rest.
 void RandomMessages::damage() {
   constexpr std::size_t kFingerprintBytes = 8;
   const std::size_t from = random_() % 8 == 0 ? 0 : kFingerprintBytes;

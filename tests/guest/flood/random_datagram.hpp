@@ -1,5 +1,5 @@
 #pragma once
-// What an open LCM network may throw at a subscriber.
+// Random messages and datagrams, as a subscriber may receive them on an open LCM network.
 
 #include <cstdint>
 #include <random>
@@ -10,8 +10,8 @@ namespace azimuth::guest {
 
 using Octets = std::vector<std::uint8_t>;
 
-/// Messages: of a known type with some bytes changed, cut off or added, or of no type at all. Same generator, same
-/// bytes.
+/// Random messages: messages of a known type with changed, missing or additional bytes, and noise. Equal seeds give
+/// equal bytes.
 ///
 /// Thread contract: thread-bound.
 class RandomMessages {
@@ -24,12 +24,12 @@ class RandomMessages {
   void damage();
 
   std::mt19937_64 random_;
-  std::vector<Octets> sound_;  // one of each type
+  std::vector<Octets> sound_;  // one sound message of each type
   Octets message_;
 };
 
-/// A datagram that pretends to be one of LCM's, and is not as it should be: without a channel, a piece of a message
-/// that contradicts itself or never ends, or noise. At most `kMostDatagramBytes`.
+/// A malformed LCM datagram: without a channel, a fragment of an inconsistent or endless message, or noise. It has at
+/// most `kMostDatagramBytes`.
 inline constexpr std::size_t kMostDatagramBytes = 1400;
 void random_datagram(const std::string& channel, std::mt19937_64& random, Octets& into);
 

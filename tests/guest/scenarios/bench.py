@@ -1,4 +1,4 @@
-"""Scenarios, what they measure and what they expect."""
+"""Runs scenarios; functions for their expectations and measurements."""
 
 import subprocess
 import sys
@@ -13,11 +13,11 @@ class Failed(Exception):
 
 
 class Skipped(Exception):
-    """It cannot be tried here; the reason is the message."""
+    """The scenario cannot run on this machine; the message is the reason."""
 
 
 def scenario(function):
-    """A decorator: the function is one scenario, called by its name."""
+    """A decorator that registers a function as a scenario under its name."""
     _scenarios.append(function)
     return function
 
@@ -33,12 +33,12 @@ def expect_equal(found, wanted, what):
 
 
 def tell(text):
-    """A line for whoever reads the log: what was measured."""
+    """Prints a measurement to the log."""
     print(f"    {text}", flush=True)
 
 
 def run(*command, check=True, timeout=120, **options):
-    """Standard output and error of a program; fails the scenario when it fails."""
+    """Runs a program and returns its standard output and error; fails the scenario if the program fails."""
     done = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                           timeout=timeout, **options)
     if check and done.returncode != 0:
@@ -52,7 +52,7 @@ def exit_code(*command, timeout=120):
 
 
 def wait_until(condition, timeout_s, what, pause_s=0.05):
-    """Seconds until `condition()` was true; fails the scenario after `timeout_s`."""
+    """Waits until `condition()` is true and returns the seconds; fails the scenario after `timeout_s`."""
     start = time.monotonic()
     while not condition():
         if time.monotonic() - start > timeout_s:
@@ -62,7 +62,8 @@ def wait_until(condition, timeout_s, what, pause_s=0.05):
 
 
 def run_scenarios(wanted, clean_up):
-    """All that are wanted by name (none given: all); `clean_up()` comes after each. Returns the exit code."""
+    """Runs the scenarios whose names contain a part in `wanted` (all if it is empty) and calls `clean_up()` after each.
+    Returns the exit code."""
     counts = {"passed": 0, "failed": 0, "skipped": 0}
     for function in _scenarios:
         name = function.__name__
@@ -76,7 +77,7 @@ def run_scenarios(wanted, clean_up):
         except Skipped as reason:
             outcome = "skipped"
             tell(str(reason))
-        except Exception as problem:  # one that cannot be tried says nothing of the others
+        except Exception as problem:  # the other scenarios still run
             outcome = "failed"
             if not isinstance(problem, Failed):
                 traceback.print_exc(file=sys.stdout)

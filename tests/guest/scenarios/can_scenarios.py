@@ -1,4 +1,5 @@
-"""A base on a CAN bus: what it says, an interface that comes and goes, a bus that is full, a real card."""
+"""Scenarios with a robot base on a CAN bus: its messages, an interface that comes and goes, a full bus, an emulated
+card."""
 
 import math
 import re
@@ -15,7 +16,7 @@ from replugs import expect_quick, replug, replugged_unharmed
 from robot import SimulatedRobot
 from set_up import at_end, closing, error_m, listener
 
-WHEELS, POWER = 0x181, 0x182  # what the base sends
+WHEELS, POWER = 0x181, 0x182  # identifiers of the frames of the base
 DBC = service.CONFIGURATION.parent / "simulated-can.dbc"
 EMERGENCY_STOP, BUMPER = 2, 16  # bits of status_t.robot_flags
 MOST_CPU = 0.9
@@ -43,7 +44,8 @@ def virtual_bus():
 
 
 def start_can_robot(listens, sends):
-    """The base sends on one interface, the service listens to another or the same, and tracks."""
+    """Starts the base on the interface `sends` and the service on the interface `listens`, and waits until it
+    tracks."""
     service.forget_everything()
     robot = closing(SimulatedRobot("/run/robot", can=sends))
     camera = closing(UsbCamera("uvc", camera_link=robot.camera_socket))
@@ -52,7 +54,7 @@ def start_can_robot(listens, sends):
     DBC.chmod(0o644)
     at_end(lambda: DBC.unlink(missing_ok=True))
     service.configure(FROM_CAN.replace("INTERFACE", listens), robot.rig)
-    service.drop_in("can", "[Service]\nRestrictAddressFamilies=AF_CAN\n")  # as the package's example has it
+    service.drop_in("can", "[Service]\nRestrictAddressFamilies=AF_CAN\n")  # the content of the package's example
     start = time.monotonic()
     service.start()
     wait_until(lambda: heard.tracks_since(start), 40, "the robot is tracked")
@@ -67,7 +69,8 @@ def healths_of_steps(heard, since_s):
 
 @scenario
 def can_base_is_tracked():
-    """A base on a CAN bus is tracked; battery, emergency stop and bumper are in the status, errors of the bus in the log."""
+    """A base on a CAN bus is tracked; battery, emergency stop and bumper are in the status, errors of the bus in the
+    log."""
     bus = virtual_bus()
     robot, _, heard = start_can_robot(bus.name, bus.bus)
     since = time.monotonic()
@@ -90,10 +93,10 @@ def can_base_is_tracked():
 
 
 def bus_fails(bus, heard):
-    """What a controller says of itself, which nothing but a frame is, here said by another."""
+    """Sends the error frames of a CAN controller from another process."""
     sender = socket.socket(socket.PF_CAN, socket.SOCK_RAW, socket.CAN_RAW)
     sender.bind((bus.name,))
-    for kind, data in ((socket.CAN_ERR_FLAG | 0x4, bytes([0, 0x20, 0, 0, 0, 0, 0, 0])),  # passive, by its counters
+    for kind, data in ((socket.CAN_ERR_FLAG | 0x4, bytes([0, 0x20, 0, 0, 0, 0, 0, 0])),  # error-passive
                        (socket.CAN_ERR_FLAG | 0x40, bytes(8))):  # bus-off
         sender.send(struct.pack("=IB3x8s", kind, 8, data))
         time.sleep(1.5)
@@ -119,7 +122,7 @@ def can_bus_is_flooded():
     bus = virtual_bus()
     robot, _, heard = start_can_robot(bus.name, bus.bus)
     time.sleep(8)
-    for rate_hz in (8000, 0):  # a bus of 1 Mbit/s at its fullest; then as many as the kernel takes
+    for rate_hz in (8000, 0):  # the maximum of a bus of 1 Mbit/s; then as many as the kernel takes
         flooded(bus, robot, heard, rate_hz)
 
 
@@ -136,7 +139,7 @@ def flooded(bus, robot, heard, rate_hz):
          f"{healths.count(TRACKING)} of {len(healths)} steps tracking, {rms_m:.3f} m rms of {points}; "
          f"{heard.status['odometry_gaps'] - gaps} gaps")
     expect(len(healths) > 10, f"only {len(healths)} steps")
-    # Some may be uncertain: on the first lap the small images show few landmarks that are known already.
+    # Some poses may be uncertain: on the first lap, the small images show few known landmarks.
     expect_equal(healths.count(LOST), 0, "steps that are lost")
     expect(rms_m < 0.5, f"the poses are {rms_m:.3f} m off")
     expect_equal(heard.status["odometry_gaps"] - gaps, 0, "gaps in the odometry")

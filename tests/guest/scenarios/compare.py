@@ -1,11 +1,11 @@
-"""How well two trajectories agree."""
+"""Measures how well two trajectories agree."""
 
 import bisect
 import math
 
 
 def at(track, time_s):
-    """(x, y) of [(t, x, y, ...)] at that time, between its points; None outside of it."""
+    """Interpolates (x, y) of the track [(t, x, y, ...)] at `time_s`; None outside of the track."""
     after = bisect.bisect_left(track, (time_s,))
     if after == 0 or after == len(track):
         return None
@@ -15,8 +15,7 @@ def at(track, time_s):
 
 
 def rms_after_best_fit(track, truth):
-    """Root of the mean squared distance after the one rigid motion that fits `track` to `truth` best, and the number of
-    points that were compared."""
+    """RMS distance between `track` and `truth` after the best rigid alignment, and the number of compared points."""
     pairs = [((x, y), true) for t, x, y in track if (true := at(truth, t))]
     if len(pairs) < 3:
         return math.inf, len(pairs)

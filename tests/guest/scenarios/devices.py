@@ -1,4 +1,4 @@
-"""Devices that come and go: each has plug() and unplug(), and says when it is there."""
+"""Emulated devices. Each has plug() and unplug() and a wait for its node."""
 
 import json
 import os
@@ -11,13 +11,13 @@ from bench import Failed, Skipped, exit_code, expect, run, wait_until
 IN = Path("/mnt/in")
 PROGRAMS = IN / "programs"
 FIRST_NODE_TIMEOUT_S = 30
-# What stands for hardware goes before all that is not: a robot does not wait until udev is done. After the daemon's
-# own threads, which are the ones to be judged.
+# Programs that replace hardware have real-time priority, because a real robot does not wait for udev. Their priority is
+# below that of the daemon's threads, which are under test.
 PROMPT = ["chrt", "--fifo", "10"]
 
 
 class Host:
-    """Who booted the guest: see boot.py."""
+    """The control port to the program that booted the guest, see boot.py."""
 
     def __init__(self):
         self._port = os.open("/dev/virtio-ports/host", os.O_RDWR)
@@ -58,7 +58,7 @@ class SerialAdapter:
 
 
 class UsbCamera:
-    """sim/usb_camera: a camera in user space, plugged into the kernel's vhci_hcd."""
+    """The user-space camera tests/equipment/usb_camera, attached to the kernel's vhci_hcd."""
 
     def __init__(self, kind, width_px=320, height_px=240, rate_hz=15, serial="BENCH1", camera_link=None, port=0):
         run("modprobe", "-a", "vhci-hcd", "uvcvideo")
@@ -79,17 +79,17 @@ class UsbCamera:
         self._process.stdin.flush()
 
     def device(self):
-        """The USB device in sysfs, while it is plugged in."""
+        """The USB device in sysfs if it is plugged in, else None."""
         for serial in Path("/sys/bus/usb/devices").glob("*/serial"):
             try:
                 if serial.read_text().strip() == self.serial:
                     return serial.parent
             except OSError:
-                pass  # it goes away while it is looked at
+                pass  # the device disappears during the search
         return None
 
     def node(self):
-        """/dev/videoN of a UVC camera, while there is one."""
+        """The node /dev/videoN of the UVC camera if it exists."""
         device = self.device()
         nodes = sorted(device.glob("*/video4linux/video*")) if device else []
         return Path("/dev") / nodes[0].name if nodes else None
@@ -119,7 +119,7 @@ class UsbCamera:
 
 
 class LoopbackCamera:
-    """sim/usb_camera, writing into a node of v4l2loopback."""
+    """The camera tests/equipment/usb_camera, which writes to a node of v4l2loopback."""
 
     node = Path("/dev/video20")
 
@@ -127,13 +127,13 @@ class LoopbackCamera:
         if exit_code("modprobe", "--dry-run", "v4l2loopback") != 0:
             raise Skipped("this guest has no v4l2loopback")
         run("modprobe", "v4l2loopback", f"video_nr={self.node.name[5:]}", "exclusive_caps=1", "card_label=Loopback",
-            "max_buffers=8")  # with its usual two it writes into images that are still being read
+            "max_buffers=8")  # with the default of two, it overwrites images that are still being read
         wait_until(self.node.exists, FIRST_NODE_TIMEOUT_S, f"{self.node}")
         command = [PROGRAMS / "usb_camera", "loopback", self.node, width_px, height_px, rate_hz, "--format", layout]
         self._log = open("/tmp/usb_camera_loopback.log", "a")
         self._process = subprocess.Popen(PROMPT + [str(word) for word in command], stdin=subprocess.PIPE,
                                          stdout=self._log, stderr=self._log)
-        time.sleep(1)  # until it has said what it writes
+        time.sleep(1)  # until the log names its format
         expect(self._process.poll() is None, f"usb_camera writes: {Path(self._log.name).read_text()}")
 
     def close(self):
@@ -144,9 +144,9 @@ class LoopbackCamera:
 
 
 class VirtualCan:
-    """A vcan interface, which goes and comes back under its name as a USB adapter's does, at a bus that stays. The bus is
-    an interface of its own, since whoever sends must not notice: to close and open sockets waits for the kernel while an
-    interface is taken away."""
+    """A vcan interface that can disappear and return under its name like a USB adapter, while its bus stays. The bus is
+    a separate interface, so that the senders are not affected: closing and opening a socket blocks while the kernel
+    removes an interface."""
 
     name, bus = "vcan0", "bus0"
 
@@ -172,7 +172,7 @@ class VirtualCan:
 
 
 class KvaserCard:
-    """can0, an emulated Kvaser card with an SJA1000; can1 is on the same wires."""
+    """can0, an emulated Kvaser card with an SJA1000; can1 is on the same bus."""
 
     name, peer = "can0", "can1"
     driver = Path("/sys/bus/pci/drivers/kvaser_pci")

@@ -1,4 +1,4 @@
-"""Images of each camera driver, checked one by one: order, stamps, content, and every one that is lost is counted."""
+"""Scenarios that check every image of each camera driver: order, stamps, content and the count of lost images."""
 
 import time
 from pathlib import Path
@@ -8,7 +8,7 @@ from devices import LoopbackCamera, UsbCamera
 from grab import Grab, ascends, check_order, check_pattern, tell_of
 from set_up import closing
 
-LOST = 7  # images, on purpose
+LOST = 7  # number of images that a test drops on purpose
 
 
 def uvc(*settings, **options):
@@ -24,7 +24,7 @@ def iidc(**options):
 
 
 def expect_counted(grab, lost):
-    """As many are missing among the images as in their sequence numbers and in the driver's counters."""
+    """Expects that `lost` images are missing in the images, in their sequence numbers and in the driver's counters."""
     counters = grab.counters
     expect_equal(grab.gaps("number"), lost, "gaps among the images that were sent")
     expect_equal(counters["missing"] + counters["corrupt"] + counters["dropped"], lost, f"lost, says {counters}")
@@ -59,7 +59,7 @@ def uvc_errors_are_counted():
 
 
 def check_losses(grab):
-    """A reader that takes no image for a while: those for which it left no buffer are counted exactly."""
+    """Pauses the reader; the driver must count exactly the images for which there was no free buffer."""
     time.sleep(2)
     grab.pause(1.5)
     grab.finish()
@@ -119,14 +119,14 @@ def loopback_frames():
             camera.close()
         tell_of(layout, grab)
         check_order(grab)
-        if layout != "mjpeg":  # whose first bytes are no number
+        if layout != "mjpeg":  # JPEG images have no number in their first bytes
             check_pattern(grab)
             expect_equal(grab.gaps("number"), grab.gaps("sequence"), "gaps among images and in sequence numbers")
         expect_equal(len({image.digest for image in grab.images}), len(grab.images), "different images")
 
 
 class Vivid:
-    """The kernel's own virtual webcam."""
+    """The virtual webcam of the kernel."""
 
     def __init__(self):
         run("modprobe", "vivid", "n_devs=1", "node_types=0x1", "input_types=0x0", "num_inputs=1")
@@ -221,5 +221,5 @@ def iidc_errors_are_counted():
     check_order(grab)
     check_pattern(grab)
     expect_equal(grab.counters["corrupt"], LOST, "corrupt ones")
-    # Its stamps are those of a program, and may be unusable on a machine that stalls.
+    # A program makes the stamps, so they may be unusable on a machine that stalls.
     expect_equal(grab.gaps("number"), LOST + grab.counters["dropped"], "gaps among the images that were sent")

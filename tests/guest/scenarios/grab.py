@@ -1,4 +1,4 @@
-"""Images as the daemon's camera drivers hand them on: what frame_grab tells of them."""
+"""Runs frame_grab and reads its output about the images that the daemon's camera drivers deliver."""
 
 import signal
 import subprocess
@@ -12,14 +12,14 @@ from devices import PROGRAMS, PROMPT
 class Image(NamedTuple):
     sequence: int
     stamp_us: int
-    number: int  # its first four bytes: usb_camera counts its images there
-    corrupt: int  # so far
-    whole: int  # 1: a test image of usb_camera, every byte
+    number: int  # first four bytes of the image, where usb_camera writes its image counter
+    corrupt: int  # number of corrupt images so far
+    whole: int  # 1: all bytes are those of a test image of usb_camera
     digest: str
 
 
 class Grab:
-    """frame_grab at work, as prompt as the daemon's own threads. Its images and counters are known once it has ended."""
+    """Runs frame_grab with the priority of the daemon's threads. Images and counters are known after it has ended."""
 
     def __init__(self, kind, *settings, frames=100, for_s=40, until_failed=False):
         command = [str(PROGRAMS / "frame_grab"), kind, *settings, "--frames", str(frames), "--for", str(for_s)]
@@ -30,7 +30,7 @@ class Grab:
         self.images, self.counters, self.events = [], {}, ""
 
     def pause(self, seconds):
-        """Takes no image for so long."""
+        """Takes no image for `seconds`."""
         self._process.send_signal(signal.SIGSTOP)
         time.sleep(seconds)
         self._process.send_signal(signal.SIGCONT)
@@ -53,7 +53,7 @@ class Grab:
         return self
 
     def gaps(self, field):
-        """Of its values, those that are missing between the first and the last."""
+        """The number of values of `field` that are missing between the first and the last."""
         values = [getattr(image, field) for image in self.images]
         return values[-1] - values[0] - (len(values) - 1)
 
@@ -63,7 +63,7 @@ def ascends(values):
 
 
 def check_order(grab):
-    """Every sequence number and stamp is greater than the last, and the stamps are of the time of the grab."""
+    """Expects that sequence numbers and stamps increase, and that the stamps lie within the time of the grab."""
     images = grab.images
     expect(ascends([image.sequence for image in images]), "sequence numbers ascend")
     stamps = [image.stamp_us for image in images]
@@ -75,7 +75,7 @@ def check_order(grab):
 
 
 def check_pattern(grab):
-    """The images are usb_camera's, undamaged and in its order."""
+    """Expects that the images are those of usb_camera, undamaged and in order."""
     expect(all(image.whole for image in grab.images), "every byte of every image is as it was sent")
     expect(ascends([image.number for image in grab.images]), "the images come in the order in which they were sent")
 

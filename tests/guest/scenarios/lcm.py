@@ -1,4 +1,4 @@
-"""A subscriber of its own to LCM over multicast, so that what is published is read by more than the library that sent it."""
+"""An independent subscriber to LCM over multicast, so that another reader than the LCM library checks the messages."""
 
 import socket
 import struct
@@ -16,7 +16,7 @@ HEALTH = {0: "starting", 1: "tracking", 2: "degraded", 3: "lost"}
 
 @dataclass(frozen=True)
 class Pose:
-    """pose_cov_t, as far as it is looked at. Times are CLOCK_MONOTONIC, s."""
+    """The fields of pose_cov_t that the tests use. Times are CLOCK_MONOTONIC [s]."""
     time_s: float
     arrived_s: float
     utime: int
@@ -53,7 +53,7 @@ class Reader:
 
 
 class Listener:
-    """Keeps every pose and the newest status. Messages in pieces are of no interest here."""
+    """Keeps every pose and the newest status. It ignores fragmented messages."""
 
     def __init__(self, decode_status):
         self._decode_status = decode_status
@@ -91,11 +91,11 @@ class Listener:
                 self.status = self._decode_status(Reader(data))
 
     def tracks_since(self, time_s):
-        """Whether a step after that moment was tracking: odometry, camera and estimator all work again."""
+        """True if a step after `time_s` had health "tracking", so that odometry, camera and estimator work again."""
         return self.tracking_again_s(time_s) is not None
 
     def tracking_again_s(self, time_s):
-        """When the first such step arrived; None: none yet."""
+        """The arrival time of the first such step; None if there is none yet."""
         again_s = None
         for pose in reversed(self.poses):
             if pose.time_s < time_s:

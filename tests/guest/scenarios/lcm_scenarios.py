@@ -1,4 +1,4 @@
-"""Odometry from another process, by messages, and a network on which anybody says anything."""
+"""Scenarios with odometry from another process over LCM, and with arbitrary datagrams on the network."""
 
 import subprocess
 import time
@@ -19,7 +19,7 @@ url = "{NETWORK}"
 odometry_channel = "AZIMUTH_ODOM"
 """)
 
-# A second daemon, which reads the robot and passes on what it says.
+# A second daemon that reads the robot and publishes its odometry.
 READER = f"""
 [daemon]
 rig = "/etc/azimuthd/rig.toml"

@@ -1,4 +1,4 @@
-"""Reads status_t by its definition in lcmtypes, so that a field that is added there is known here as well."""
+"""Decodes status_t with its definition in lcmtypes, so that the tests know new fields."""
 
 import re
 
@@ -7,7 +7,8 @@ FIELD = re.compile(r"^\s*(\w+)\s+(\w+)\s*;")
 
 
 def status_decoder(definition):
-    """Takes the text of status_t.lcm; returns a function from Reader to a dictionary."""
+    """Returns a function that decodes a status from a Reader to a dictionary; `definition` is the text of
+    status_t.lcm."""
     fields = []
     for line in definition.splitlines():
         match = FIELD.match(line.split("//")[0])

@@ -1,11 +1,11 @@
-"""The package is installed before anything else."""
+"""Scenarios of the installation, which run first."""
 
 import service
 from bench import exit_code, expect, expect_equal, run, scenario, tell
 from devices import IN
 
 PACKAGE = IN / "azimuth.deb"
-EXPOSURE = 17  # tenths
+EXPOSURE = 17  # in tenths of the exposure of systemd-analyze security
 
 
 def version():

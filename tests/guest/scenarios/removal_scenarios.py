@@ -1,4 +1,4 @@
-"""The package is upgraded, removed and purged, when everything else has been tried."""
+"""Scenarios of the upgrade, the removal and the purge of the package, which run last."""
 
 import shutil
 from pathlib import Path
@@ -36,7 +36,7 @@ def package_removes_and_purges():
            and not Path("/usr/lib/systemd/system/azimuthd.service").exists(), "the unit is gone")
     expect(exit_code("pgrep", "-x", "azimuthd") != 0, "no process is left")
     expect(service.CONFIGURATION.exists(), "the configuration is still there")
-    service.RIG.unlink(missing_ok=True)  # the owner's own file
+    service.RIG.unlink(missing_ok=True)  # a file of the owner, which the purge keeps
     run("dpkg", "-P", "azimuth")
     expect(not service.CONFIGURATION.exists(), "the configuration is gone")
     expect(not service.STATE.exists() and not service.LOGS.exists(), "maps and logs are gone")

@@ -1,4 +1,4 @@
-"""Devices that are pulled out and plugged in again under the running service."""
+"""Unplugs devices and plugs them in again while the service runs."""
 
 import os
 import random
@@ -12,12 +12,13 @@ from lcm import HEALTH
 from set_up import error_m
 
 RECOVERY_S = 2.0
-REPLUGS = 20 if os.uname().machine == "x86_64" else 3  # on another's processor time goes slower
-MAPPED = 8  # landmarks before the trouble: with fewer a pose soon is too uncertain to be called tracked
+REPLUGS = 20 if os.uname().machine == "x86_64" else 3  # the emulation of other processors is slower
+MAPPED = 8  # landmarks before the fault; with fewer, the pose soon becomes too uncertain for the health "tracking"
 
 
 def replug(devices, heard, times=REPLUGS, seed=1):
-    """Each device so many times, in random order. Seconds from its node's return to tracking, by device."""
+    """Replugs each device `times` times in random order. Returns the seconds from the return of its node to tracking,
+    by device."""
     order = [name for name in devices for _ in range(times)]
     chance = random.Random(seed)
     chance.shuffle(order)
@@ -39,7 +40,7 @@ def replug(devices, heard, times=REPLUGS, seed=1):
 
 
 def tell_around(there_s, heard):
-    """What was seen and said around a recovery that took long, by seconds after what was to be recovered from."""
+    """Prints the received poses and log lines around a slow recovery, with the seconds after the fault."""
     steps = [(p.time_s - there_s, HEALTH[p.health]) for p in heard.poses if not p.predicted and p.time_s > there_s - 2]
     tell("steps: " + ", ".join(f"{t:+.2f} {health}" for t, health in steps))
     for line in run("journalctl", "-u", "azimuthd", "--no-pager", "-o", "short-monotonic").splitlines():
@@ -54,7 +55,8 @@ def expect_quick(took):
 
 
 def replugged_unharmed(devices, robot, heard):
-    """Replugs them once there is a map, and expects process, map and descriptors to have outlived that."""
+    """Replugs the devices after there is a map, and expects that the process, the map and the number of descriptors
+    stay."""
     wait_until(lambda: heard.status["landmarks"] >= MAPPED, 60, f"a map of {MAPPED} landmarks")
     pid, open_before, landmarks = service.pid(), service.descriptors(), heard.status["landmarks"]
     took = replug(devices, heard)

@@ -1,4 +1,4 @@
-"""azimuth-sim as the robot: on the far end of the serial adapter's line, or on a CAN bus, with a camera of its own."""
+"""Runs azimuth-sim as the robot with a camera, at the far end of the serial adapter's line or on a CAN bus."""
 
 import csv
 import socket
@@ -12,7 +12,8 @@ LINE_PORT = 7001
 
 
 class SimulatedRobot:
-    """Drives through a world and renders what its camera sees. `folder` gets rig.toml at once, the truth as it goes."""
+    """Drives through a world and renders the camera images. `folder` gets rig.toml at the start and the truth during
+    the drive."""
 
     def __init__(self, folder, scenario="lab", image_rate_hz=4, can=None, seed=1):
         self.folder = Path(folder)
@@ -39,7 +40,7 @@ class SimulatedRobot:
                                 stderr=self._log)
 
     def command(self, line):
-        """Of those that azimuth-sim takes; returns its answer."""
+        """Sends a command to azimuth-sim and returns its answer."""
         with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as control:
             control.settimeout(10)
             control.connect(str(self._control))
@@ -47,7 +48,7 @@ class SimulatedRobot:
             return control.recv(4096).decode()
 
     def truth(self):
-        """(t_s, x_m, y_m, heading_rad) so far."""
+        """The true poses (t_s, x_m, y_m, heading_rad) so far."""
         with open(self.truth_file) as file:
             rows = list(csv.reader(file))[1:]
         return [tuple(map(float, row)) for row in rows if len(row) == 4]

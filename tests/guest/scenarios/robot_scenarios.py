@@ -1,4 +1,4 @@
-"""The whole of it: a robot on a serial adapter, a camera, the service, subscribers."""
+"""Scenarios of the whole system: a robot on a serial adapter, a camera, the service and subscribers."""
 
 import re
 import shutil
@@ -97,13 +97,13 @@ def silent_camera_is_reset():
 
 def expect_tracking_after_a_hang(image_rate_hz):
     """The process of a stage that hangs is killed, and the next one goes on with map and odometry."""
-    # From the guest's own disk, which keeps in memory what was read: as the real one starts.
+    # Runs the program from the guest's disk, which is cached in memory, so that it starts as fast as the real one.
     program = Path(shutil.copy(PROGRAMS / "hanging_azimuthd", "/usr/local/sbin"))
     at_end(program.unlink)
     service.drop_in("hang", f"[Service]\nExecStart=\nExecStart={program} --config /etc/azimuthd/azimuthd.toml\n")
     _, _, _, heard = start_robot_and_service(image_rate_hz=image_rate_hz)
     service.wait_for_map()
-    time.sleep(75)  # once round the room
+    time.sleep(75)  # one lap of the room
     landmarks = heard.status["landmarks"]
     (Path("/run/azimuth") / "hang").write_text("")
     hung = time.monotonic()

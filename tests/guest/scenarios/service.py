@@ -1,4 +1,4 @@
-"""azimuthd as a service under systemd."""
+"""Controls azimuthd as a systemd service."""
 
 import os
 import shutil
@@ -85,13 +85,13 @@ def restarts():
 
 
 def cpu_s():
-    """What the process has used of the processors."""
+    """The CPU time that the process has used [s]."""
     fields = Path(f"/proc/{pid()}/stat").read_text().rsplit(")", 1)[1].split()
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
 def threads():
-    """Scheduling policy and priority by thread name."""
+    """Scheduling policy and priority of the threads, keyed by thread name."""
     found = {}
     for task in Path(f"/proc/{pid()}/task").iterdir():
         name = (task / "comm").read_text().strip()
@@ -110,7 +110,7 @@ def locked_kb():
 
 
 def memory_kb():
-    """What of the process is in memory."""
+    """The resident memory of the process [kB]."""
     fields = (line.split() for line in Path(f"/proc/{pid()}/status").read_text().splitlines())
     return next(int(words[1]) for words in fields if words[0] == "VmRSS:")
 
@@ -120,7 +120,7 @@ def journal(since=None):
 
 
 def forget_everything():
-    """Maps and field logs."""
+    """Deletes maps and field logs."""
     for folder in (STATE, LOGS):
         if folder.exists():
             for entry in folder.iterdir():

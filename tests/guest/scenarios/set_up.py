@@ -1,4 +1,5 @@
-"""What scenarios start: the simulated robot, its devices, the service, subscribers. All of it ends with the scenario."""
+"""Starts the simulated robot, its devices, the service and subscribers for a scenario. All of them end with the
+scenario."""
 
 import time
 from pathlib import Path
@@ -13,7 +14,7 @@ from robot import SimulatedRobot
 
 OUT = Path("/mnt/out")
 
-_at_end = []  # what a scenario started, to be closed in turn whatever happens
+_at_end = []  # objects that a scenario started; they are closed at its end in any case
 
 
 def clean_up(name, outcome):
@@ -54,7 +55,7 @@ def plugged_adapter():
 
 
 def start_robot_and_service(configuration=service.FROM_SERIAL, **robot_options):
-    """Everything plugged in, the service started anew and tracking."""
+    """Plugs everything in, restarts the service and waits until it tracks."""
     service.forget_everything()
     robot = closing(SimulatedRobot("/run/robot", **robot_options))
     adapter = plugged_adapter()

@@ -16,7 +16,7 @@ std::optional<MirrorCircle> found_in(const std::vector<Image>& images) {
   return finder.find();
 }
 
-/// What stands round the mirror in the image.
+/// The surroundings of the mirror in the image.
 enum class Around { black, gray_noise, stripes };
 
 struct Case {
@@ -44,7 +44,7 @@ void paint_around(Image& image, const Case& mirror) {
 
 std::vector<Image> images_of(const Case& mirror) {
   RenderCamera camera = test::mirror_camera();
-  // The horizon at 0.8 of the rim, as in the standard camera.
+  // The horizon is at 0.8 of the rim radius, as in the standard camera.
   const ImageAxes axes{mirror.centre_px, 1.0, -1, -kPi / 2};
   camera.model = CameraModel(axes, HyperbolicMirror{28.095, 23.4125, 1035.376 * mirror.outer_px / 376.0});
   camera.mask = {mirror.inner_px, mirror.outer_px, {}};
@@ -91,7 +91,7 @@ TEST(MirrorFinder, SameImagesSameCircle) {
   EXPECT_EQ(found_in(images)->rim.centre_px, found_in(images)->rim.centre_px);
 }
 
-/// The room as a camera with a lens would see it: the mirror's image unrolled.
+/// The mirror's image unrolled to a panorama, similar to the view of a lens camera.
 Image panorama() {
   const Image& mirror = test::mirror_image();
   Image image = test::blank(PixelFormat::gray8, 1024, 512);

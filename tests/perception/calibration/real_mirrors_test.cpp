@@ -1,5 +1,5 @@
-// Three real mirror cameras and a ray-traced one. The circles were measured by hand: the image unrolled about a guess
-// of the centre, enlarged six times, and the guess mended until the end of the reflection was a straight line.
+// Three real mirror cameras and a ray-traced one. The circles were measured by hand in images unrolled about a trial
+// centre and enlarged six times: the rim is straight when the centre is right.
 
 #include <algorithm>
 #include <fstream>
@@ -17,8 +17,8 @@ struct RealMirror {
   const char *name, *folder, *files_begin;
   Pixel centre_px;
   double radius_px;
-  std::size_t every = 1;       ///< of the files
-  bool in_each_image = false;  ///< one image is enough
+  std::size_t every = 1;       ///< uses every n-th file
+  bool in_each_image = false;  ///< a single image suffices
 };
 std::ostream& operator<<(std::ostream& out, const RealMirror& each) { return out << each.name; }
 
@@ -49,7 +49,8 @@ class RealMirrors : public testing::TestWithParam<RealMirror> {};
 INSTANTIATE_TEST_SUITE_P(
     Each, RealMirrors,
     testing::Values(RealMirror{"kaidan", "mirror-images", "Kaidan", {325.5, 247.0}, 223.5, 1, true},
-                    // Grey before grey, its rim a seam with dust, a third of it beyond the image: only all together.
+                    // A difficult mirror: grey on grey, a dusty rim, a third of it outside the image. Only several
+                    // images together suffice.
                     RealMirror{"mini", "mirror-images", "Mini", {364.5, 224.0}, 257.5},
                     RealMirror{"paracatadioptric", "mirror-calibration", "imgMei", {642.3, 521.0}, 354.5, 1, true},
                     RealMirror{"office", "office-a/frames", "0000", {512.0, 384.0}, 376.0, 20, true}),

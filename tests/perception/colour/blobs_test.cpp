@@ -1,4 +1,4 @@
-// Blobs, their areas and perimeters, against pixels one by one.
+// Compares blobs, their areas and perimeters with a computation pixel by pixel.
 
 #include "slam/perception/colour/blobs.hpp"
 
@@ -15,7 +15,7 @@ namespace {
 
 using test::ClassPicture;
 
-/// Clears all that hangs together with (u, v); its area.
+/// Clears the connected region around (u, v) and returns its area.
 int flood(ClassPicture& picture, int u, int v) {
   const std::uint8_t its = picture.at(u, v);
   std::vector<std::pair<int, int>> open{{u, v}};
@@ -34,7 +34,7 @@ int flood(ClassPicture& picture, int u, int v) {
   return area;
 }
 
-/// The area of each blob in the order of first pixels.
+/// The areas of all blobs, in the order of their first pixels.
 std::vector<int> flooded_areas(ClassPicture picture) {
   std::vector<int> areas;
   for (int v = 0; v < picture.height; ++v)

@@ -1,5 +1,5 @@
 #pragma once
-// Small pictures of classes, to make runs of.
+// Small pictures of class numbers, which can be converted to runs.
 
 #include <cstdint>
 #include <functional>
@@ -16,7 +16,7 @@ struct ClassPicture {
   ClassPicture(int w, int h)
       : width(w), height(h), classes(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
 
-  /// 0 outside.
+  /// The class at (u, v); 0 outside the picture.
   std::uint8_t at(int u, int v) const {
     const bool inside = u >= 0 && v >= 0 && u < width && v < height;
     return inside ? classes[index(u, v)] : std::uint8_t{0};

@@ -8,7 +8,7 @@
 namespace azimuth {
 namespace {
 
-/// Every `step`-th value of each of three samples.
+/// Visits every `step`-th value of each of three samples.
 template <class Visit>
 void visit_colours(int step, Visit visit) {
   for (int a = 0; a < 256; a += step)

@@ -1,5 +1,5 @@
 #pragma once
-// Coloured images in every format a camera may send, made from one of whole pixels.
+// Coloured images in all camera formats, converted from an image of full-colour pixels.
 
 #include <algorithm>
 #include <array>
@@ -60,7 +60,7 @@ inline std::byte byte_of(double value) { return static_cast<std::byte>(std::lrou
 
 inline std::byte luma(Rgb c) { return byte_of(0.299 * c.red + 0.587 * c.green + 0.114 * c.blue); }
 
-/// Two pixels as Y U Y V or U Y V Y, BT.601 of all 256 steps.
+/// Writes two pixels as Y U Y V or U Y V Y, in full-range BT.601.
 inline void write_pair(const Canvas& canvas, int u, int v, int luma_at, std::byte* pair) {
   const Rgb a = canvas.at(u, v), b = canvas.at(u + 1, v);
   const double red = 0.5 * (a.red + b.red), green = 0.5 * (a.green + b.green), blue = 0.5 * (a.blue + b.blue);
@@ -70,7 +70,7 @@ inline void write_pair(const Canvas& canvas, int u, int v, int luma_at, std::byt
   pair[3 - luma_at] = byte_of(128.0 + 0.5 * red - 0.418688 * green - 0.081312 * blue);
 }
 
-/// The chroma of four pixels, which stands once below the rows of luma.
+/// Writes the common chroma of four pixels to the chroma plane below the luma rows.
 inline void write_square(const Canvas& canvas, int u, int v, std::byte* pair) {
   double red = 0.0, green = 0.0, blue = 0.0;
   for (const auto& [du, dv] : {std::pair(0, 0), {1, 0}, {0, 1}, {1, 1}}) {
@@ -83,7 +83,7 @@ inline void write_square(const Canvas& canvas, int u, int v, std::byte* pair) {
   pair[1] = byte_of(128.0 + 0.5 * red - 0.418688 * green - 0.081312 * blue);
 }
 
-/// The sample that a Bayer sensor takes at (u, v).
+/// The sample of a Bayer sensor at (u, v).
 inline std::byte mosaic(const Canvas& canvas, int u, int v, int red_row, int red_column) {
   const Rgb colour = canvas.at(u, v);
   const bool on_red_row = v % 2 == red_row, on_red_column = u % 2 == red_column;
@@ -125,7 +125,7 @@ inline void write_pixel(const Canvas& canvas, int u, int v, PixelFormat pixels, 
 
 }  // namespace detail
 
-/// The canvas as a camera of this format would send it.
+/// The canvas as a camera with this format sends it.
 inline Frame taken(const Canvas& canvas, PixelFormat pixels, int padding = 0) {
   Frame frame = frame_with_stride(pixels, canvas.width_px, canvas.height_px, padding);
   for (int v = 0; v < canvas.height_px; ++v)
@@ -142,7 +142,7 @@ inline Rgb mixed(Rgb before, Rgb after, double part) {
   return {mix(before.red, after.red), mix(before.green, after.green), mix(before.blue, after.blue)};
 }
 
-/// What an upright thing looks like: between two lines through the image's centre.
+/// The shape of an upright object in the image: between two lines through the image centre.
 struct Wedge {
   double centre_u_px = 0.0, centre_v_px = 0.0;
   double angle_rad = 0.0;  ///< from u towards v
@@ -150,7 +150,7 @@ struct Wedge {
   double near_px = 150.0, far_px = 260.0;  ///< radii
 };
 
-/// Paints the wedge, its outline smooth over about a pixel, as a lens makes it.
+/// Paints the wedge with an outline smoothed over about a pixel, as through a lens.
 inline void paint(Canvas& canvas, const Wedge& wedge, Rgb colour) {
   for (int v = 0; v < canvas.height_px; ++v)
     for (int u = 0; u < canvas.width_px; ++u) {
@@ -162,7 +162,7 @@ inline void paint(Canvas& canvas, const Wedge& wedge, Rgb colour) {
     }
 }
 
-/// Noise of a sensor, each sample by itself.
+/// Adds independent sensor noise to each sample.
 inline void add_noise(Canvas& canvas, double sigma, std::mt19937& random) {
   std::normal_distribution<double> noise(0.0, sigma);
   const auto noisy = [&](int value) {

@@ -1,4 +1,4 @@
-// Painted landmarks in every format, and images of no use.
+// Painted landmarks in every format, and unusable images.
 
 #include "slam/perception/colour/colour_perception.hpp"
 
@@ -38,7 +38,7 @@ Wedge wedge_at(double azimuth_rad) {
   return {kCentreU_px, kCentreV_px, wrap(kOffset_rad - azimuth_rad), 0.06, 120.0, 180.0};
 }
 
-/// One cylinder of each class, red first.
+/// One cylinder of each class, the red one first.
 const Canvas& four_cylinders() {
   static const Canvas canvas = [] {
     Canvas painting(kWidth_px, kHeight_px);
@@ -51,7 +51,7 @@ const Canvas& four_cylinders() {
 
 BearingSet observed(ColourPerception& perception, const ImageView& image) {
   BearingSet set;
-  set.bearings.resize(3);  // of the last image: must go
+  set.bearings.resize(3);  // leftovers of the previous image, which must disappear
   set.descriptors.resize(3);
   set.trouble = ImageTrouble::dark;
   perception.observe(image, set);
@@ -123,7 +123,8 @@ TEST_P(EveryColourFormat, RandomBytesOfAnySizeAreSafe) {
   for (int i = 0; i < 150; ++i) {
     const int width_px = i % 10 == 0 ? 2 : 2 * draw(1, 70);
     Frame frame = test::frame_with_stride(GetParam(), width_px, draw(1, 80), draw(0, 9));
-    const int like_before = draw(0, 100);  // per cent: from noise to stretches
+    // Probability (per cent) to repeat the previous value: from noise to long runs.
+    const int like_before = draw(0, 100);
     int value = 0;
     for (std::byte& byte : frame.bytes) {
       if (draw(0, 99) >= like_before) value = draw(0, 255);
@@ -162,7 +163,7 @@ TEST(ColourPerception, SaysThatImagesAreUnreadable) {
     const BearingSet set = observed(perception, bad);
     EXPECT_EQ(set.trouble, ImageTrouble::unreadable) << name(bad.format.pixels);
     EXPECT_THAT(set.bearings, IsEmpty());
-    expect_four(observed(perception, good.view()), kWithin_rad);  // and recovers with the next good one
+    expect_four(observed(perception, good.view()), kWithin_rad);  // the next good image must be processed normally
   }
 }
 
@@ -206,7 +207,7 @@ TEST(ColourPerception, KnowsPixelsThatAreNotSquare) {
 }
 
 TEST(ColourPerception, PassesOverWhatIsHiddenOrReachesTheEdgeOfSight) {
-  CameraRig with_strut = rig();  // over one side of the red one, all along
+  CameraRig with_strut = rig();  // a strut that hides one whole side of the red landmark
   const double red = wrap(kOffset_rad - 0.3);
   const auto at = [&](double off_rad, double radius_px) {
     return PixelPoint{kCentreU_px + radius_px * std::cos(red + off_rad),
@@ -217,12 +218,12 @@ TEST(ColourPerception, PassesOverWhatIsHiddenOrReachesTheEdgeOfSight) {
   EXPECT_THAT(set.bearings, SizeIs(3));
   for (const Bearing& bearing : set.bearings) EXPECT_NE(bearing.kind, 0);
 
-  CameraRig narrow = rig();  // cuts off the far ends: the sides still tell the direction
+  CameraRig narrow = rig();  // a mask that hides the far ends; the sides still determine the direction
   narrow.image.mask_outer_px = 172.0;
   expect_four(observed(test::taken(four_cylinders(), PixelFormat::rgb8).view(), narrow), kWithin_rad);
 }
 
-// The one in front is known by what of its sides is in sight; the one behind shows no side of its own there.
+// The visible parts of its sides identify the landmark in front; the one behind has no visible side of its own there.
 TEST(ColourPerception, PassesOverWhatStandsBehind) {
   Canvas canvas(kWidth_px, kHeight_px);
   Wedge front = wedge_at(1.0), behind = wedge_at(1.07);

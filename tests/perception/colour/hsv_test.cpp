@@ -14,7 +14,7 @@ Rgb random_colour(std::mt19937& random) {
   return {draw(), draw(), draw()};
 }
 
-/// The inverse by its definition: how far each sample is below the largest one.
+/// The inverse conversion by definition: the distance of each sample from the largest one.
 double sample_of(const Hsv& hsv, double offset) {
   const double k = std::fmod(offset + hsv.hue_deg / 60.0, 6.0);
   return 255.0 * hsv.value * (1.0 - hsv.saturation * std::clamp(std::min(k, 4.0 - k), 0.0, 1.0));

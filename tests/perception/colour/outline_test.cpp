@@ -1,4 +1,4 @@
-// Outlines against the sides of pixels one by one, and what lines and sides make of them.
+// Compares outlines with the pixels' sides one by one, and tests the lines and sides fitted to them.
 
 #include "slam/perception/colour/outline.hpp"
 

@@ -1,4 +1,4 @@
-// Shapes painted pixel by pixel, their sides found again.
+// Finds the sides of shapes that are painted pixel by pixel.
 
 #include "slam/perception/colour/radial_sides.hpp"
 
@@ -16,12 +16,12 @@ namespace {
 constexpr int kSide = 640;
 constexpr double kCentre = 319.5;
 
-/// Angle off the wedge's middle and radius of a pixel.
+/// Radius of a pixel, and its angle relative to the wedge's middle.
 struct Polar {
   double off_rad, radius_px;
 };
 
-/// Paints the pixels that `inside` says, as seen along `angle_rad`.
+/// The outline of the pixels for which `inside` holds, with the shape's axis along `angle_rad`.
 std::vector<CentredPoint> outline_of_shape(double angle_rad, const std::function<bool(const Polar&)>& inside) {
   test::ClassPicture picture(kSide, kSide);
   picture.paint([&](int u, int v) {
@@ -71,18 +71,18 @@ TEST(RadialSides, MeasureLengthAndWidth) {
   EXPECT_NEAR(shape->width_px, 2 * std::tan(0.05) * 180.0, 0.7);
 }
 
-// Sides jump from pixel to pixel, which sigma_side_px covers.
+// The pixel grid makes sides jump by whole pixels, which sigma_side_px covers.
 TEST(RadialSides, KnowTheLeastThereIsToError) {
   ColourSettings settings;
   settings.sigma_side_px = 0.0;
   const auto outline = outline_of_shape(-1.2, wedge(0.05, 120.0, 280.0));
   const double least = shape_of(outline, settings)->sigma_rad;
-  settings.sigma_side_px = 1.0;  // of each of two sides, at the root mean square radius
+  settings.sigma_side_px = 1.0;  // per side, at the root mean square radius
   EXPECT_NEAR(std::pow(shape_of(outline, settings)->sigma_rad, 2),
               least * least + 0.5 / (200.0 * 200.0 + 160.0 * 160.0 / 12.0), 2e-7);
 }
 
-// The rig's centre is off by (5, -4) px: the direction is right for the radius that comes with it.
+// The rig's centre is wrong by (5, -4) px: the direction must be correct for the radius that accompanies it.
 TEST(RadialSides, SayAtWhichRadiusTheDirectionHoldsForACentreThatIsOff) {
   const CentredPoint off_px(5.0, -4.0);
   for (const double at : {-2.5, -1.0, 0.2, 1.4, 2.8}) {
@@ -117,7 +117,7 @@ TEST(RadialSides, RefuseWhatHasNoTwoSidesAlongTheRadius) {
     const double along = p.radius_px * std::cos(p.off_rad) - 200.0, aside = p.radius_px * std::sin(p.off_rad);
     return std::abs(along) < 50.0 && std::abs(aside - 0.36 * along) < 10.0;
   })));
-  EXPECT_FALSE(shape_of(outline_of_shape(0.3, [](const Polar& p) {  // lies over the centre
+  EXPECT_FALSE(shape_of(outline_of_shape(0.3, [](const Polar& p) {  // covers the centre
     const double along = p.radius_px * std::cos(p.off_rad), aside = p.radius_px * std::sin(p.off_rad);
     return along > -20.0 && along < 100.0 && std::abs(aside) < 10.0;
   })));
@@ -125,7 +125,7 @@ TEST(RadialSides, RefuseWhatHasNoTwoSidesAlongTheRadius) {
   EXPECT_FALSE(shape_of({CentredPoint(100.0, 0.0), CentredPoint(101.0, 0.0)}));
 }
 
-/// Background but for what lies on the side of greater angles between two radii.
+/// Everything is background except the area beside the shape, towards greater angles, between two radii.
 RadialSides::IsBackground hidden_beside(double angle_rad, double near_px, double far_px) {
   return [=](const CentredPoint& point) {
     const bool beside = wrap(std::atan2(point.y(), point.x()) - angle_rad) > 0.0;

@@ -1,4 +1,4 @@
-// The lab as the simulator renders it, and the office of a rendered run: what is found, what is not there, how exact.
+// Detections in the simulated lab and in a rendered office: missed landmarks, false detections and accuracy.
 
 #include <filesystem>
 #include <fstream>
@@ -23,7 +23,7 @@ struct Visible {
   double azimuth_rad = 0.0, distance_m = 0.0;
 };
 
-/// Counts over images, each bearing given to the true landmark of its kind next to it.
+/// Counts over several images. Each bearing is matched with the nearest true landmark of its kind.
 class Score {
  public:
   static constexpr double kGate_rad = 0.03;
@@ -75,7 +75,7 @@ Visible seen_from(const Pose2& T_world_body, const Eigen::Vector2d& p_world, Kin
   return {kind, std::atan2(p_body.y(), p_body.x()), p_body.norm()};
 }
 
-/// Whether nothing nearer comes within some pixels of it.
+/// Whether no nearer landmark appears within some pixels of it.
 bool is_clear(const Visible& landmark, const std::vector<Visible>& all) {
   return std::ranges::none_of(all, [&](const Visible& other) {
     const double apart_rad = std::abs(wrap(other.azimuth_rad - landmark.azimuth_rad));
@@ -109,7 +109,7 @@ std::vector<Visible> landmarks_of(const RenderScene& scene, const Pose2& T_world
   std::vector<Visible> landmarks;
   for (const RenderCylinder& cylinder : scene.cylinders) {
     const auto paint = std::ranges::find(kPaints, cylinder.paint);
-    if (paint == kPaints.end()) continue;  // a stand
+    if (paint == kPaints.end()) continue;  // the stand of a landmark
     landmarks.push_back(seen_from(T_world_body, cylinder.p_world_m, static_cast<Kind>(paint - kPaints.begin())));
   }
   return landmarks;
@@ -169,7 +169,7 @@ Kind kind_named(const std::string& name) {
   return found == settings.classes.end() ? kAnyKind : static_cast<Kind>(found - settings.classes.begin());
 }
 
-/// The inner block of the office hides some from afar; whatever is within 2.5 m stands before it.
+/// The inner block of the office hides some distant landmarks; those within 2.5 m are never hidden.
 TEST(RenderedOffice, LandmarksNearbyAreFoundPostersAreNot) {
   AZIMUTH_REQUIRE_DATA("office-a");
   const std::filesystem::path folder = test::data_folder() / "office-a";
@@ -178,7 +178,7 @@ TEST(RenderedOffice, LandmarksNearbyAreFoundPostersAreNot) {
   const FileResult<Rig> rig = read_rig_file(folder / "rig.toml");
   ASSERT_TRUE(rig);
   CameraRig camera = rig->camera;
-  camera.image.centre_px = {511.5, 383.5};  // the renderer counts from corners of pixels, not from their middles
+  camera.image.centre_px = {511.5, 383.5};  // the renderer counts from pixel corners, Azimuth from pixel centres
   ColourPerception perception(camera, {});
   JpegDecoder decoder;
   BearingSet set;

@@ -1,11 +1,11 @@
-// The one pass against one pixel at a time.
+// Compares the single-pass scan with a classification pixel by pixel.
 
 #include "slam/perception/colour/scan.hpp"
 
 #include <gmock/gmock.h>
 
 #include "slam/perception/colour/class_table.hpp"
-#include "slam/perception/colour/scan_loops.hpp"  // the portable loops, whatever this processor has
+#include "slam/perception/colour/scan_loops.hpp"  // the portable loops, on any processor
 #include "tests/perception/colour/colour_images.hpp"
 #include "tests/support/printed_choices.hpp"
 #include "tests/support/printed_name.hpp"
@@ -21,7 +21,7 @@ SampleSpace space_of(PixelFormat pixels) {
   return is_yuv ? SampleSpace::yuv : SampleSpace::rgb;
 }
 
-/// The class of one sample, from the definition of each format.
+/// The class of one sample, computed from the definition of each format.
 ClassNumber class_at(const Frame& frame, const ClassTable& table, int column, int row) {
   const auto byte = [&](int v, int offset) { return unsigned{frame.view().row(v)[offset]}; };
   const auto yuv = [&](int luma_at) {
@@ -78,7 +78,7 @@ std::vector<ColourRun> runs_one_by_one(const Frame& frame, const ClassTable& tab
   return runs;
 }
 
-/// One or two spans in each row of samples.
+/// One or two random spans in each row of samples.
 std::vector<VisibleSpan> random_spans(const FrameFormat& format, std::mt19937& random) {
   const int side = pixels_per_sample(format.pixels);
   std::vector<VisibleSpan> spans;
@@ -93,7 +93,7 @@ std::vector<VisibleSpan> random_spans(const FrameFormat& format, std::mt19937& r
   return spans;
 }
 
-/// Stretches of one colour with some noise, so that runs of every length occur.
+/// Stripes of one colour each, with some noise, so that runs of all lengths occur.
 test::Canvas stripes(int width_px, int height_px, std::mt19937& random) {
   constexpr std::array kColours{test::kGrey, test::kRed, test::kYellow, test::kGreen, test::kBlue, Rgb{40, 42, 38}};
   const auto draw = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };

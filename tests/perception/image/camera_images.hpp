@@ -1,5 +1,5 @@
 #pragma once
-// Images that a camera has taken, in a folder of the data.
+// Images of a real camera in a folder of the test data.
 
 #include <algorithm>
 #include <filesystem>
@@ -30,7 +30,7 @@ struct CameraImages {
     return rig;
   }
 
-  /// By name.
+  /// The files in the order of their names.
   std::vector<std::filesystem::path> files() const {
     std::vector<std::filesystem::path> found;
     for (const auto& entry : std::filesystem::directory_iterator(data_folder() / folder))
@@ -44,7 +44,7 @@ inline std::ostream& operator<<(std::ostream& out, const CameraImages& camera) {
   return out << camera.folder << ' ' << camera.name_begins;
 }
 
-/// In grey; without pixels when it is no image.
+/// Reads an image in grey; the result has no pixels if the file is not an image.
 inline Image read_image(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(stream), {}};

@@ -20,7 +20,7 @@ ImageTrouble trouble_of(const Image& image, const ImageRig& rig = kMirrorRig) {
   return ImageWatch(rig).judge(image.view());
 }
 
-/// One grey with noise, as a sensor gives it.
+/// A uniform grey image with sensor noise.
 Image plain(PixelFormat pixels, double level, double noise) {
   Image image = test::blank(pixels, 1024, 768);
   std::minstd_rand random(7);

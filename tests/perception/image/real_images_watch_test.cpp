@@ -1,4 +1,4 @@
-// Images of real cameras, and of ray-traced runs, in which front ends find what they look for: nothing is wrong.
+// Images of real cameras and of ray-traced runs, all usable: the watch must not report any trouble.
 
 #include <gtest/gtest.h>
 

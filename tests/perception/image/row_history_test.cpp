@@ -9,14 +9,14 @@ namespace {
 constexpr std::size_t kRows = 20;
 using Rows = std::vector<RowHistory::Digest>;
 
-/// Rows that no other image has.
+/// Rows that differ from those of every other image.
 Rows image_of(std::uint64_t number) {
   Rows rows(kRows);
   std::iota(rows.begin(), rows.end(), 1000 * (number + 1));
   return rows;
 }
 
-/// The rows of `upper` before `row`, those of `lower` from there on.
+/// The rows of `upper` above `row`, the rows of `lower` from there on.
 Rows torn(const Rows& upper, const Rows& lower, std::size_t row) {
   Rows rows = upper;
   std::copy(lower.begin() + static_cast<std::ptrdiff_t>(row), lower.end(),
@@ -54,12 +54,12 @@ TEST(RowHistory, WholeImagesMayRepeat) {
 }
 
 TEST(RowHistory, WhatNeverChangesSaysNothing) {
-  RowHistory history(kRows);  // the robot itself, painted without noise, in the lower half
+  RowHistory history(kRows);  // the lower half shows the robot itself, without noise
   for (std::uint64_t i = 0; i < 10; ++i) EXPECT_FALSE(add(history, torn(image_of(i), image_of(100), 10)));
 }
 
 TEST(RowHistory, RowsOfOneValueSayNothing) {
-  RowHistory history(kRows);  // a dark ceiling with a lamp in the upper half, now and then one in the lower
+  RowHistory history(kRows);  // a dark ceiling with a lamp in the upper half, and at times a lamp in the lower half
   for (std::uint64_t i = 0; i < 20; ++i) {
     Rows rows = torn(image_of(i), Rows(kRows, RowHistory::kNothing), 10);
     if (i % 2 == 0) rows = torn(rows, image_of(i), 15);
@@ -68,7 +68,7 @@ TEST(RowHistory, RowsOfOneValueSayNothing) {
 }
 
 TEST(RowHistory, ABackgroundWithoutNoiseComesBack) {
-  RowHistory history(kRows);  // where a lamp went by
+  RowHistory history(kRows);  // a background in front of which a lamp passes
   for (std::uint64_t i = 0; i < 40; ++i) {
     Rows rows = image_of(100);
     for (std::size_t row = 0; row < kRows; ++row)
@@ -78,7 +78,7 @@ TEST(RowHistory, ABackgroundWithoutNoiseComesBack) {
 }
 
 TEST(RowHistory, OnePersonBeforeAStillRobotIsNoTear) {
-  RowHistory history(kRows);  // without noise: what stands still is equal, in two parts
+  RowHistory history(kRows);  // without noise the static background is identical, above and below the person
   for (std::uint64_t i = 0; i < 10; ++i)
     EXPECT_FALSE(add(history, torn(torn(image_of(100), image_of(i), 5), image_of(100), 15)));
 }

@@ -1,4 +1,5 @@
-// Images of two instants, and images cut short and filled up: which are recognised, and that whole ones never are.
+// Images composed of two instants, and images that are cut short and filled up: most must be recognised, whole images
+// never.
 
 #include <algorithm>
 #include <array>
@@ -32,7 +33,7 @@ Image torn(const Image& upper, const Image& lower, int row) {
   return image;
 }
 
-/// A robot that goes on from image to image by so much.
+/// The images of a robot that moves by `step` from image to image.
 std::vector<Image> rendered_drive(const RenderScene& scene, RenderCamera camera, int images, const Pose2& step,
                                   double noise, PixelFormat pixels = PixelFormat::gray8) {
   camera.sensor.noise = noise;
@@ -51,7 +52,7 @@ int found_torn(const std::vector<Image>& images, const ImageRig& rig) {
       images, [&](const Image& image) { return watch.judge(image.view()) == ImageTrouble::torn; }));
 }
 
-/// Of how many images, torn at any row between each and the next.
+/// Counts of torn images that are recognised. Each is torn at a random row between two consecutive images.
 struct Found {
   int images = 0, by_itself = 0, by_its_history = 0;
   void print(const std::string& what) const {
@@ -132,7 +133,8 @@ TEST_P(TornFormat, IsRecognisedByOneImage) {
   EXPECT_EQ(found_torn({torn(upper, lower, 300)}, kTornMirrorRig), 1);
 }
 
-/// Not even one that is brighter along a whole row than above: a beam, or a lamp that went on while a sensor was read.
+/// A whole row brighter than the one above (a beam, or a lamp switched on during the readout) must not be taken for a
+/// tear.
 TEST(TornImages, AnEdgeAlongARowIsNoTear) {
   for (const int row : {200, 384, 500}) {
     Image image = rendered_drive(test::lab_scene(), test::mirror_camera(), 1, {}, 1.5).front();
@@ -148,7 +150,7 @@ std::vector<std::byte> jpeg_of(const Image& image) {
   return {bytes.begin(), bytes.end()};
 }
 
-/// As most programs decode: what is missing is made up.
+/// Decodes like most programs, which fill in missing data.
 Image lenient(const std::vector<std::byte>& jpeg, int width_px, int height_px) {
   Image image = test::blank(PixelFormat::gray8, width_px, height_px);
   jpeg_decompress_struct decompress{};
@@ -228,12 +230,12 @@ TEST(TornImages, LastRowRepeatedOrBlackIsRecognised) {
 
 struct TornCamera {
   test::CameraImages images;
-  int least_by_itself, least_by_history;  // in a hundred
+  int least_by_itself, least_by_history;  // per cent
 };
 
 std::ostream& operator<<(std::ostream& out, const TornCamera& camera) { return out << camera.images; }
 
-/// Those that are images.
+/// All files that are readable images.
 std::vector<Image> real_images(const test::CameraImages& camera) {
   std::vector<Image> images;
   for (const auto& file : camera.files()) {

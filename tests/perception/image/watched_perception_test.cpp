@@ -9,7 +9,7 @@
 namespace azimuth {
 namespace {
 
-/// Sees one thing in every image.
+/// A front end that returns one bearing for every image.
 class OneBearing final : public Perception {
  public:
   explicit OneBearing(int& images) : images_(images) {}

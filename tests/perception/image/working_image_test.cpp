@@ -15,7 +15,7 @@ namespace {
 
 using test::Image;
 
-/// Grey by a function of the pixel.
+/// An image whose grey level is a function of the pixel.
 template <class Gray>
 Image painted(int width_px, int height_px, const Gray& gray) {
   Image image = test::blank(PixelFormat::gray8, width_px, height_px);
@@ -53,7 +53,7 @@ TEST(WorkingImage, OneGreyStaysThat) {
   }
 }
 
-/// A slope has its value where camera_pixel() says that the pixel is.
+/// A linear slope must have the value of the position that camera_pixel() returns.
 TEST(WorkingImage, PutsPixelsWhereTheSquareSays) {
   const Image image = painted(200, 160, [](int u, int v) { return 10.0 + 0.6 * u + 0.5 * v; });
   for (const double beta : {1.0, 0.9}) {
@@ -93,7 +93,7 @@ TEST(ResampleKernels, EveryProcessorAddsTheSame) {
   }
 }
 
-/// Grey pixels are the same grey in every format; a Bayer mosaic mixes its neighbours in.
+/// A grey pixel has the same value in every format; a Bayer mosaic mixes in its neighbours.
 TEST(GrayRow, ReadsEveryFormat) {
   const Image gray = painted(64, 48, [](int u, int v) { return 20.0 + u + 2.0 * v; });
   for (const PixelFormat pixels : test::kUncompressed) {

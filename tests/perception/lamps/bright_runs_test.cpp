@@ -22,7 +22,7 @@ std::vector<Find> variants() {
   return all;
 }
 
-/// Pixel by pixel.
+/// The expected runs, computed pixel by pixel.
 std::vector<PixelRun> expected(const std::vector<std::uint8_t>& pixels, const PixelRun& where, int level) {
   std::vector<PixelRun> runs;
   for (int u = where.first; u < where.last; ++u) {
@@ -33,7 +33,7 @@ std::vector<PixelRun> expected(const std::vector<std::uint8_t>& pixels, const Pi
   return runs;
 }
 
-/// Stretches of random length around either side of the level: runs end and begin anywhere in a vector.
+/// A row of random stretches above and below the level, so that runs start and end anywhere in a vector register.
 std::vector<std::uint8_t> random_row(std::mt19937& engine, int level) {
   std::vector<std::uint8_t> row;
   std::uniform_int_distribution<int> size(150, 700), dark(0, level - 1), bright(level, 255);

@@ -34,7 +34,7 @@ std::vector<SpotPair> pair(const std::vector<Pixel>& predicted, std::span<const 
 
 Pose2 pose(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
-/// One step of Gauss and Newton, with Huber's weights.
+/// One Gauss-Newton step with Huber weights.
 Eigen::Vector3d step(const TiltedFisheye& camera, std::span<const Pixel> before, std::span<const Pixel> after,
                      const std::vector<SpotPair>& pairs, const Eigen::Vector3d& at) {
   constexpr double kTiny = 1e-5;

@@ -1,5 +1,5 @@
 #pragma once
-// How spots in a ceiling move from image to image when the robot does.
+// Motion of the spots of a ceiling from image to image.
 
 #include <Eigen/Core>
 #include <optional>
@@ -11,41 +11,41 @@
 
 namespace azimuth::test {
 
-/// The fisheye behind `ceiling-tubes`, as its owner calibrated it: r = f (theta + k1 theta^3), the optical axis tilted
-/// towards the right of the image. Points of the ceiling are in units of its height above the camera.
+/// The fisheye camera of `ceiling-tubes`, as calibrated by its owner: r = f (theta + k1 theta^3), with the optical axis
+/// tilted towards the right of the image. Points of the ceiling are in units of its height above the camera.
 class TiltedFisheye {
  public:
-  /// Nothing for what is lower than kLowest_rad.
+  /// The point of the ceiling; no value below the elevation kLowest_rad.
   std::optional<Eigen::Vector2d> ceiling(const Pixel& pixel) const;
   Pixel pixel(const Eigen::Vector2d& ceiling) const;
 
   static constexpr double kLowest_rad = 0.3;
 
  private:
-  static constexpr double kHalved = 4.05;  // the images are that much smaller than those it was calibrated with
+  static constexpr double kHalved = 4.05;  // scale of the images relative to the calibration images
   static constexpr double kFocalLength_px = 765.0 / kHalved, kK1 = 0.015;
   static constexpr double kCentreU_px = 1280.0 / kHalved, kCentreV_px = 920.0 / kHalved;
   static constexpr double kTilt_rad = 22.0 * kPi / 180.0;
 };
 
-/// A spot before a motion and after it.
+/// Indices of the same spot before and after a motion.
 struct SpotPair {
   std::size_t before = 0, after = 0;
 };
 
-/// Which spots are the same, and the motion that says so.
+/// Matched spots, and the motion that matches them.
 struct CeilingMotion {
-  Pose2 T_after_before;  ///< of the ceiling: three numbers for all spots together
+  Pose2 T_after_before;  ///< motion of the ceiling, with three parameters for all spots
   std::vector<SpotPair> pairs;
 };
 
-/// Fits the motion of a robot on a flat floor to where spots are before it and after it, by their distances in pixels
-/// and so that a few wrong pairs do not matter. A pair is each other's nearest and within 3 pixels in the end.
-/// `guess`: of the motion, e.g. the last one.
+/// Fits the motion of a robot on a flat floor to the spots before and after it, minimising robustly weighted distances
+/// in pixels. Pairs are mutual nearest neighbours within 3 pixels at the end. `guess`: an initial motion, e.g. the
+/// previous one.
 CeilingMotion fit_motion(const TiltedFisheye& camera, std::span<const Pixel> before, std::span<const Pixel> after,
                          const Pose2& guess);
 
-/// Where a spot will be; nothing where it is too low.
+/// Predicted position of a spot; no value if it is too low.
 std::optional<Pixel> moved(const TiltedFisheye& camera, const Pixel& before, const Pose2& T_after_before);
 
 }  // namespace azimuth::test

@@ -7,8 +7,8 @@
 namespace azimuth {
 namespace {
 
-/// Centroid and covariance of the image of a rectangle in a ceiling one height above the camera, as a sensor would
-/// measure them: by the area it has in the image.
+/// Centroid and covariance of the image of a ceiling rectangle, one unit above the camera, weighted by image area like
+/// a sensor's measurement.
 struct Spot {
   Pixel centroid = Pixel::Zero();
   Eigen::Matrix2d spread_px2 = Eigen::Matrix2d::Zero();
@@ -52,7 +52,7 @@ TEST_P(CeilingPatchOf, IsTheLampWhereverItHangs) {
     for (double azimuth_rad = -3.0; azimuth_rad < 3.0; azimuth_rad += 0.7) {
       const Eigen::Vector2d middle = away * Eigen::Vector2d(std::cos(azimuth_rad), std::sin(azimuth_rad));
       const auto spot = spot_of(camera, middle, 0.3, 0.1, 0.9);
-      if (!spot || spot->spread_px2.trace() > 40.0 * 40.0) continue;  // as large as half the image
+      if (!spot || spot->spread_px2.trace() > 40.0 * 40.0) continue;  // half as large as the image
       const auto patch = ceiling_patch(camera, spot->centroid, spot->spread_px2);
       ASSERT_TRUE(patch);
       ++seen;

@@ -1,6 +1,6 @@
-// Real light shapes: tubes in a ceiling, seen from a driving car through a tilted fisheye and thresholded.
+// Real light shapes: ceiling tubes seen from a moving car through a tilted fisheye, thresholded.
 //
-// AZIMUTH_PICTURES=FOLDER writes FOLDER/ceiling-tubes.jpg: the last image, its spots, and the way each has come.
+// AZIMUTH_PICTURES=FOLDER writes FOLDER/ceiling-tubes.jpg: the last image, its spots and their tracks.
 
 #include <algorithm>
 #include <cstdlib>
@@ -13,7 +13,7 @@
 
 #include "drivers/camera/jpeg.hpp"
 #include "drivers/camera/run_images.hpp"
-#include "picture/canvas.hpp"
+#include "drivers/picture/canvas.hpp"
 #include "slam/perception/lamps/lamp_finder.hpp"
 #include "tests/perception/lamps/ceiling_motion.hpp"
 #include "tests/perception/lamps/gray_pictures.hpp"
@@ -23,8 +23,8 @@ namespace azimuth {
 namespace {
 
 constexpr int kImages = 100, kWidth_px = 640, kHeight_px = 480;
-constexpr double kNearBorder_px = 12.0;  // a spot that moves there may be cut in the next image
-constexpr double kLost_px = 1e3;         // how far off a spot is that is not found again
+constexpr double kNearBorder_px = 12.0;  // the next image may cut a spot this near to the border
+constexpr double kLost_px = 1e3;         // distance that is reported for a spot that is not found again
 
 VisibleRows ceiling_pixels(const test::TiltedFisheye& camera) {
   std::vector<std::uint8_t> visible;
@@ -41,13 +41,13 @@ bool stays_in_view(const test::TiltedFisheye& camera, const Pixel& pixel) {
          seen(pixel.x(), pixel.y() - kNearBorder_px) && seen(pixel.x(), pixel.y() + kNearBorder_px);
 }
 
-/// The spots of one image, and the number each of them keeps as long as it is followed.
+/// The spots of one image, and the number of the track that each belongs to.
 struct Spots {
   std::vector<Pixel> pixels;
   std::vector<std::size_t> tracks;
 };
 
-/// Spots followed through the images, and how far each was from where the ceiling's motion takes it.
+/// Tracks of the spots, and their distances from the positions that the ceiling's motion predicts.
 class Tracks {
  public:
   void add(std::vector<Pixel> pixels) {
@@ -64,7 +64,7 @@ class Tracks {
     spots_ = std::move(now);
   }
 
-  /// From image to image, of each spot that should be seen again; kLost_px: it was not.
+  /// Distance from the predicted position for each spot that should reappear; kLost_px if it does not.
   std::vector<double> jitter_px() const { return jitter_px_; }
   const std::vector<std::vector<Pixel>>& ways() const { return ways_; }
   const Spots& last() const { return spots_; }
@@ -128,10 +128,9 @@ void draw(const ImageView& image, const Tracks& tracks, const std::filesystem::p
       .write(reinterpret_cast<const char*>(jpeg.data()), static_cast<std::streamsize>(jpeg.size()));
 }
 
-/// What is measured: spots are found in every image; one motion of the ceiling, of three degrees of freedom, is fitted
-/// to all of them from each image to the next through the camera's own calibration; jitter is how far a spot then is
-/// from where that motion takes its predecessor. So it holds the noise of two centroids, and whatever the calibration
-/// and a floor that is not flat leave.
+/// Measures the stability of the spots. For each pair of consecutive images one motion of the ceiling, with three
+/// degrees of freedom, is fitted to all spots through the camera's calibration. The jitter is the distance of a spot
+/// from the motion's prediction. It contains the noise of two centroids and the errors of calibration and floor.
 TEST(CeilingTubes, SpotsAreStableFromImageToImage) {
   AZIMUTH_REQUIRE_DATA("ceiling-tubes");
   const azimuth::Run run = images_of_tubes();
@@ -160,7 +159,7 @@ TEST(CeilingTubes, SpotsAreStableFromImageToImage) {
   EXPECT_LE(quantile(jitter_px, 0.9), 2.0);
 }
 
-/// The measure itself: spots that are shaken by a known amount are found to be.
+/// Tests the measure itself: spots that are displaced by a known amount must give this jitter.
 TEST(CeilingTubes, JitterIsWhatItIsSaidToBe) {
   constexpr double kShaken_px = 0.6;
   const test::TiltedFisheye camera;
@@ -180,7 +179,7 @@ TEST(CeilingTubes, JitterIsWhatItIsSaidToBe) {
       }
     tracks.add(std::move(pixels));
   }
-  // The distance of two points on circles of that radius is sqrt(2) times it in the median.
+  // The median distance of two random points on a circle of this radius is sqrt(2) times the radius.
   EXPECT_NEAR(quantile(tracks.jitter_px(), 0.5), std::sqrt(2.0) * kShaken_px, 0.08);
 }
 

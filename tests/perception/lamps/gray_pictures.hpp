@@ -1,5 +1,5 @@
 #pragma once
-// Small grey images with shapes drawn into them.
+// Small grey images with drawn shapes.
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,8 @@ struct GrayPicture {
   }
   VisibleRows all_visible() const { return {std::vector<std::uint8_t>(pixels.size(), 255), width_px, height_px}; }
 
-  /// Where `inside(u, v)` holds, by 8 x 8 samples a pixel, so that outlines are as soft as a sensor's.
+  /// Draws the area for which `inside(u, v)` holds, with 8 x 8 samples per pixel, so that outlines are as soft as a
+  /// sensor's.
   void draw(const std::function<bool(double, double)>& inside, double value) {
     constexpr int kSamples = 8;
     for (int v = 0; v < height_px; ++v) {

@@ -1,4 +1,4 @@
-// A ray-traced drive through a hall with windows, which is not shipped: every lamp is found, windows are not.
+// A ray-traced drive through a hall with windows, which is not shipped: every lamp must be found, and no window.
 
 #include <gtest/gtest.h>
 
@@ -13,9 +13,9 @@
 namespace azimuth {
 namespace {
 
-constexpr int kEvery = 8;  // images
+constexpr int kEvery = 8;  // uses every eighth image
 
-/// The run's own rig says where the optical axis is in another convention: pixels counted from their corner.
+/// The run's rig measures the optical axis from pixel corners instead of pixel centres.
 CameraRig rig_of(const Run& run) {
   CameraRig rig = read_rig(run.rig_toml, run.rig_file)->camera;
   rig.image.centre_px = {rig.image.centre_px->at(0) - 0.5, rig.image.centre_px->at(1) - 0.5};
@@ -31,7 +31,7 @@ std::vector<Direction> lamps_from(const Run& run, const CameraRig& rig, std::siz
   return lamps;
 }
 
-/// `light`: what the exposure makes of it, image after image and over again.
+/// `light`: brightness factors for consecutive images, repeated cyclically.
 test::LampScore score(const Run& run, const LampSettings& settings, const std::vector<double>& light) {
   const CameraRig rig = rig_of(run);
   LampPerception perception(rig, settings);
@@ -55,7 +55,7 @@ test::LampScore score(const Run& run, const LampSettings& settings, const std::v
 class HallRun : public testing::TestWithParam<std::vector<double>> {};
 INSTANTIATE_TEST_SUITE_P(Light, HallRun,
                          testing::Values(std::vector{1.0}, std::vector{0.4}, std::vector{1.4},
-                                         std::vector{1.0, 0.5, 0.3, 1.4}),  // an exposure that hunts
+                                         std::vector{1.0, 0.5, 0.3, 1.4}),  // a hunting exposure control
                          test::PrintedName());
 
 TEST_P(HallRun, EveryLampIsFoundAndNoWindow) {

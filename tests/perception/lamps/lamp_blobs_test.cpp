@@ -20,7 +20,7 @@ std::vector<PixelRun> runs_in(const test::GrayPicture& picture) {
   return runs;
 }
 
-/// Number of the blob of each pixel by flooding, 0: none, in the order in which they begin.
+/// Blob number of each pixel by flood fill, in the order of the blobs' first pixels; 0: no blob.
 std::vector<int> flooded(test::GrayPicture picture) {
   std::vector<int> numbers(picture.pixels.size(), 0);
   int count = 0;
@@ -46,7 +46,7 @@ std::vector<int> flooded(test::GrayPicture picture) {
   return numbers;
 }
 
-/// By definition, in floating point.
+/// The blob's properties by definition, in floating point.
 LampBlob blob_of(test::GrayPicture picture, const std::vector<int>& numbers, int number) {
   LampBlob blob;
   const auto each = [&](auto&& use) {

@@ -70,7 +70,7 @@ TEST(LampFinder, LeavesOutWhatIsCut) {
     picture.rectangle(u, v, 12, 12, 0, 250);
     EXPECT_EQ(found_in(picture).size(), 3U);
   }
-  // By a strut across the second lamp, above, below or beside it.
+  // A strut across the second lamp, above, below or beside its centre.
   for (const auto& [du, dv] : {std::pair{0, 5}, {0, -5}, {5, 0}, {-5, 0}}) {
     const test::GrayPicture picture = three_lamps(5, 250);
     std::vector<std::uint8_t> visible(picture.pixels.size(), 255);
@@ -80,7 +80,7 @@ TEST(LampFinder, LeavesOutWhatIsCut) {
   }
 }
 
-/// A lamp thinner than a pixel is above the threshold here and there: where its middle is, no such piece tells.
+/// Only parts of a lamp thinner than a pixel exceed the threshold, and no such part is at the lamp's middle.
 TEST(LampFinder, TakesNoPieceOfAThinLampForALamp) {
   int seen = 0;
   for (int k = 0; k < 60; ++k) {
@@ -98,7 +98,7 @@ TEST(LampFinder, TakesNoPieceOfAThinLampForALamp) {
 
 TEST(LampFinder, PartsLampsThatTheirHaloJoins) {
   test::GrayPicture picture(200, 160, 5);
-  picture.rectangle(100, 80, 60, 4, 0.2, 150);  // halo
+  picture.rectangle(100, 80, 60, 4, 0.2, 150);  // the halo
   picture.rectangle(100 - 24.5, 80 - 5, 16, 9, 0.2, 255);
   picture.rectangle(100 + 24.5, 80 + 5, 16, 9, 0.2, 255);
   const std::vector<LampBlob> lamps = found_in(picture);

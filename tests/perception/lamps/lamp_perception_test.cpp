@@ -1,4 +1,4 @@
-// Lamps of a rendered hall: found where geometry says they are, in every format, by both inverses of the camera.
+// Lamps of a rendered hall must be found at their true directions, in every format, with both inverse camera models.
 
 #include "slam/perception/lamps/lamp_perception.hpp"
 
@@ -30,10 +30,11 @@ CameraRig rig() {
 
 struct View {
   test::Image image;
-  std::vector<Direction> lamps;  ///< those large enough to be found for certain
+  std::vector<Direction> lamps;  ///< lamps large enough to be found reliably
 };
 
-/// Its sides are 0.3 m and 1.2 m. Some reach through a wall or into another: nobody knows where their middle is.
+/// Lamps have sides of 0.3 m and 1.2 m. If a lamp reaches through a wall or into another lamp, its visible centre is
+/// unknown.
 bool stands_alone(const RenderLamp& lamp, const RenderScene& scene) {
   const Eigen::Vector2d half{0.15, 0.6}, low = lamp.p_world_m - half, high = lamp.p_world_m + half;
   if ((low.array() < scene.room.low_m.array()).any() || (high.array() > scene.room.high_m.array()).any()) return false;
@@ -55,7 +56,8 @@ View view_from(const Pose2& T_world_body, double above_rad = 0.4, const CameraTi
   return view;
 }
 
-/// Never along the lamps' sides: the renderer's outlines are not soft, and jump by whole pixels.
+/// A pose whose heading is not along the lamps' sides: the renderer's outlines are sharp and would jump by whole
+/// pixels.
 Pose2 place_of(int k) {
   const Eigen::Vector2d middle = hall(1, 1).landmarks.front().p_world_landmark_m;
   return {middle.x() + 0.6 + 1.3 * k, middle.y() + 0.9 + 0.7 * k, 0.3 + 0.9 * k};
@@ -93,7 +95,7 @@ TEST(LampPerception, FindsEveryLampAsWellAsItSays) {
   EXPECT_LT(found.worst, 4.0);
 }
 
-/// Lamps at the other end of the hall are less than a pixel thick, and the threshold cuts them to pieces.
+/// Lamps at the far end of the hall are thinner than a pixel, so the threshold cuts them into pieces.
 TEST(LampPerception, KnowsThatThinLampsAreCut) {
   LampPerception perception(rig(), {});
   BearingSet seen;
@@ -206,7 +208,8 @@ TEST(LampPerception, NeverAllocatesOnceItHasSeenAnImage) {
   }
 }
 
-/// In the wall, so large for a lamp wherever it is; as bright as they are, or the finder would know it by its light.
+/// Paints a window into the wall: too large for a lamp, but as bright as one, so that brightness alone does not reject
+/// it.
 void open_window(std::vector<std::byte>& pixels, const CameraModel& camera, double azimuth_rad) {
   for (int v = 0; v < 768; ++v)
     for (int u = 0; u < 1024; ++u) {
@@ -232,7 +235,7 @@ TEST(LampPerception, LeavesOutWindowsAsBrightAsLamps) {
     std::vector<Direction> opened;
     for (const double azimuth_rad : {-2.6, -1.0, 0.7, 2.1}) {
       const Direction middle{azimuth_rad, 0.25};
-      if (test::nearest(without.bearings, middle, 0.35)) continue;  // it would run into a lamp
+      if (test::nearest(without.bearings, middle, 0.35)) continue;  // the window would touch a lamp
       open_window(image.bytes, *camera, azimuth_rad);
       opened.push_back(middle);
     }

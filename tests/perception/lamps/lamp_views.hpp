@@ -1,5 +1,5 @@
 #pragma once
-// Lamps found in an image against where geometry says they are.
+// Compares detected lamps with their true directions.
 
 #include <cmath>
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace azimuth::test {
 
-/// The direction of a point in the world, by geometry alone.
+/// The direction from the camera to a point in the world, computed from geometry only.
 inline Direction direction_to(const Pose2& T_world_camera, double height_m, const Eigen::Vector3d& p_world) {
   const Eigen::Vector2d flat = inverse(T_world_camera) * Eigen::Vector2d(p_world.head<2>());
   return direction(Eigen::Vector3d(flat.x(), flat.y(), p_world.z() - height_m));
@@ -22,7 +22,7 @@ inline double angle_between(const Direction& a, const Bearing& b) {
   return std::acos(std::min(1.0, ray(a).dot(ray(Direction{b.azimuth_rad, b.elevation_rad}))));
 }
 
-/// Errors of detections over the standard deviations they claim.
+/// Errors of a detection divided by its stated standard deviations.
 struct Normalised {
   double azimuth = 0.0, elevation = 0.0;
 };
@@ -31,7 +31,7 @@ inline Normalised normalised(const Direction& truth, const Bearing& seen) {
           (seen.elevation_rad - truth.elevation_rad) / seen.sigma_elevation_rad};
 }
 
-/// Index of the bearing nearest to a direction, if one is within `radius_rad`.
+/// Index of the bearing nearest to `to` within `radius_rad`; no value if there is none.
 inline std::optional<std::size_t> nearest(const std::vector<Bearing>& bearings, const Direction& to,
                                           double radius_rad) {
   std::optional<std::size_t> best;
@@ -44,7 +44,7 @@ inline std::optional<std::size_t> nearest(const std::vector<Bearing>& bearings, 
   return best;
 }
 
-/// Mean squares of normalised errors, and what was missed or made up.
+/// Sums of squared normalised errors, and counts of missed and false detections.
 struct LampScore {
   int expected = 0, found = 0, made_up = 0, images = 0;
   double azimuth2 = 0.0, elevation2 = 0.0, worst = 0.0;

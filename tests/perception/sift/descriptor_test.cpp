@@ -17,7 +17,7 @@ double distance(const Descriptor& a, const Descriptor& b) {
   return std::sqrt(squares);
 }
 
-/// Blobs about (x, y), turned and enlarged.
+/// Blobs around (x, y), rotated and scaled.
 std::vector<Blob> constellation(double x_px, double y_px, double turn_rad, double scale, double gain = 1.0) {
   std::vector<Blob> blobs;
   Random random(7, RandomPurpose::scene);
@@ -81,7 +81,8 @@ TEST(Descriptor, LightDoesNotMatter) {
   EXPECT_LT(distance(bright, dim), 10.0);
 }
 
-/// A slope has one direction: eighths of a turn from the frame's axis, shared between neighbours in between.
+/// A slope has one gradient direction. The descriptor counts it in eighths of a turn from the frame's axis and shares
+/// directions in between among the neighbours.
 TEST(Descriptor, NamesDirectionsFromItsAxis) {
   Plane<std::uint16_t> image(128, 128);
   SiftSettings settings;

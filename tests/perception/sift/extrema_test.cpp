@@ -33,7 +33,7 @@ TEST(Extrema, FindsBlobsBetweenPixels) {
     const KeyPoint& best = *std::ranges::min_element(found, stronger);
     EXPECT_NEAR(best.x_px, blob.x_px, 0.05 * blob.sigma_px) << trial;
     EXPECT_NEAR(best.y_px, blob.y_px, 0.05 * blob.sigma_px) << trial;
-    // The difference of Gaussians of neighbouring scales answers most to a blob somewhat larger than the smaller one.
+    // The difference of Gaussians responds best to a blob somewhat larger than the smaller of its two scales.
     EXPECT_NEAR(best.sigma_px / blob.sigma_px, 0.89, 0.06) << trial;
   }
 }
@@ -53,7 +53,7 @@ TEST(Extrema, StepsAndLinesAreNoKeyPoints) {
   Plane<std::uint16_t> image(120, 120);
   for (int y = 0; y < 120; ++y)
     for (int x = 0; x < 120; ++x) image.at(x, y) = x + y > 125 || (x > 40 && x < 44) ? 60000 : 10000;
-  for (const KeyPoint& point : found_in(image)) {  // where the line meets the step there may be some
+  for (const KeyPoint& point : found_in(image)) {  // there may be features where the line meets the step
     EXPECT_NEAR(point.x_px, 42.0F, 25.0F);
     EXPECT_NEAR(point.y_px, 83.0F, 35.0F);
   }

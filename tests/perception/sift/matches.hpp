@@ -1,5 +1,5 @@
 #pragma once
-// Features of two images matched as SPEC I.12 does, and what became of them.
+// Matches the features of two images by the method of mathematics I.12 and counts the results.
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ inline int squared_distance(const Descriptor& a, const Descriptor& b) {
   return sum;
 }
 
-/// What perception finds in one image.
+/// Features detected in one image.
 struct SeenFeatures {
   BearingSet set;
   std::vector<KeyPoint> key_points;
@@ -33,12 +33,12 @@ inline SeenFeatures seen(SiftPerception& perception, const ImageView& image) {
 
 struct MatchCount {
   int features = 0;  ///< in the first image
-  int matched = 0;   ///< nearest descriptor nearer than `ratio` times the second nearest
-  int right = 0;     ///< and of the same thing
+  int matched = 0;   ///< distance to the nearest descriptor is less than `ratio` times that to the second nearest
+  int right = 0;     ///< matched features of the same object
   double right_share() const { return 1.0 * right / std::max(1, features); }
 };
 
-/// `same_thing(i, j)`: feature i of the first image is feature j of the second.
+/// `same_thing(i, j)`: whether feature i of the first image and feature j of the second are the same.
 template <class SameThing>
 MatchCount count_matches(const SeenFeatures& first, const SeenFeatures& second, double ratio,
                          const SameThing& same_thing) {

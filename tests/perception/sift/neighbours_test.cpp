@@ -13,7 +13,7 @@ TEST(Neighbours, AreTheNearestByManhattanDistance) {
   Random random(1, RandomPurpose::scene);
   for (const std::size_t count : {0U, 1U, 2U, 5U, 6U, 7U, 90U}) {
     std::vector<KeyPoint> points(count);
-    for (KeyPoint& point : points) {  // whole numbers, so that some are equally near
+    for (KeyPoint& point : points) {  // whole numbers, so that some distances are equal
       point.x_px = std::floor(static_cast<float>(random.uniform(0.0, 20.0)));
       point.y_px = std::floor(static_cast<float>(random.uniform(0.0, 20.0)));
     }

@@ -1,5 +1,5 @@
 #pragma once
-// Working images made of blobs whose place and size are known.
+// Working images composed of blobs with known positions and sizes.
 
 #include <algorithm>
 #include <cmath>
@@ -15,10 +15,10 @@ namespace azimuth::test {
 struct Blob {
   double x_px = 0.0, y_px = 0.0;
   double sigma_px = 4.0;
-  double gray_levels = 80.0;  ///< above its surroundings, or below
+  double gray_levels = 80.0;  ///< relative to the surroundings; may be negative
 };
 
-/// Mid-grey but for the blobs.
+/// A mid-grey image with blobs.
 inline Plane<std::uint16_t> picture(int side_px, const std::vector<Blob>& blobs) {
   std::vector<double> gray(static_cast<std::size_t>(side_px * side_px), 128.0);
   for (const Blob& blob : blobs) {
@@ -55,7 +55,7 @@ inline Plane<std::uint16_t> noise(int side_px, Random& random) {
   return image;
 }
 
-/// All of a square is visible.
+/// A visible region that covers the whole square.
 inline VisibleRegion whole_region(int side_px) {
   const double middle = 0.5 * (side_px - 1);
   const ImageAxes axes{{middle, middle}, 1.0, -1, 0.0};

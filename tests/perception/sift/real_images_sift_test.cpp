@@ -7,7 +7,7 @@
 namespace azimuth {
 namespace {
 
-/// How many of twelve equal sectors of azimuth hold a feature.
+/// Number of sectors with a feature, of twelve equal sectors of azimuth.
 int sectors_seen(const BearingSet& set) {
   std::array<int, 12> features{};
   for (const Bearing& bearing : set.bearings)

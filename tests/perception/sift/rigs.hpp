@@ -1,5 +1,5 @@
 #pragma once
-// Cameras of the images that SIFT is tested on.
+// Cameras of the images in the tests of SIFT.
 
 #include <fstream>
 #include <iterator>
@@ -13,7 +13,7 @@
 
 namespace azimuth::test {
 
-/// A camera whose centre and ring are all that is known.
+/// A camera of which only the centre and the ring are known.
 inline CameraRig ring_rig(double u0, double v0, double inner_px, double outer_px) {
   CameraRig rig;
   rig.model = RadialRig{};
@@ -23,7 +23,7 @@ inline CameraRig ring_rig(double u0, double v0, double inner_px, double outer_px
   return rig;
 }
 
-/// That of mirror_camera() in views.hpp.
+/// The camera of mirror_camera() in views.hpp.
 inline CameraRig lab_mirror_rig() {
   CameraRig rig = ring_rig(512.0, 384.0, 60.0, 376.0);
   rig.model = HyperbolicMirrorRig{.a_mm = 28.095, .b_mm = 23.4125, .focal_length_px = 1035.376};
@@ -32,7 +32,7 @@ inline CameraRig lab_mirror_rig() {
 }
 
 struct RealImage {
-  std::string file;  ///< in the folder of data
+  std::string file;  ///< in the data folder
   CameraRig rig;
   bool for_rotation = false;
 };

@@ -1,4 +1,4 @@
-// What of our features is told apart by its looks, beside OpenCV's SIFT, in rooms that nothing was tuned on.
+// Compares the matching of Azimuth's features with OpenCV's SIFT, in rooms that served for no tuning.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace azimuth {
 namespace {
 
-constexpr std::uint64_t kFirstSeed = 11;  // what came before was tuned on
+constexpr std::uint64_t kFirstSeed = 11;  // lower seeds serve for tuning
 constexpr int kRooms = 5, kPairs = 24;
 
 test::MatchScore scored(const std::vector<test::RoomPairs>& rooms, const test::FeatureMethod& method) {

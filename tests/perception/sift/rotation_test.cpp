@@ -1,4 +1,5 @@
-// A robot that turns on the spot turns its image about the mirror's centre: features must be found again (SPEC I.12).
+// A robot that turns on the spot rotates its image about the mirror's centre: features must be matched again
+// (mathematics I.12).
 
 #include <algorithm>
 #include <array>
@@ -18,7 +19,7 @@ using test::Image;
 
 constexpr double kRatio = 0.8;
 
-/// A front end's features of an image, and how many of them it finds again when the image is turned.
+/// A front end's features of an image, and the number of them that match after a rotation of the image.
 class Turned {
  public:
   Turned(const Image& image, const CameraRig& rig, const SiftSettings& settings) : perception_(rig, settings) {
@@ -28,7 +29,7 @@ class Turned {
 
   const Pixel& centre() const { return perception_.working_square().axes.centre_px; }
   int features() const { return static_cast<int>(before_.key_points.size()); }
-  /// Of the matches that the image has with itself.
+  /// Share of the correct matches, relative to those of the image with itself.
   double share_kept(const Image& turned, double angle_rad) {
     return 1.0 * found_again(turned, angle_rad).right / std::max(1, unturned_);
   }
@@ -52,7 +53,7 @@ class Turned {
   int unturned_ = 0;
 };
 
-/// As printed, but for the contrast, which would leave hardly any feature to lose, and their number.
+/// The paper's settings, except the contrast, with which hardly any feature remains, and the number of features.
 SiftSettings literal() {
   SiftSettings settings = paper_sift_preset();
   settings.contrast = SiftSettings{}.contrast;

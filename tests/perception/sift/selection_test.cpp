@@ -59,7 +59,7 @@ TEST(Selection, StrongestFirst) {
   EXPECT_TRUE(std::ranges::is_sorted(selected(scattered(400, random)), stronger));
 }
 
-/// One corner full of strong features must not use up the target.
+/// Many strong features in one corner must not use up the target number.
 TEST(Selection, LooksAllRound) {
   Random random(4, RandomPurpose::scene);
   std::vector<KeyPoint> points = scattered(200, random);

@@ -38,7 +38,7 @@ TEST(SiftPerception, FillsOneOfEachForEveryFeature) {
   }
 }
 
-/// What a room shows does not depend on its light, as long as there is any. An absolute contrast is what the paper has.
+/// The number of features must not depend on the light, except in darkness. The paper uses an absolute contrast.
 TEST(SiftPerception, FindsAsMuchInDimLight) {
   const Image room = test::mirror_image();
   SiftSettings absolute;
@@ -60,7 +60,7 @@ TEST(SiftPerception, ContrastAsPrintedDoesNotFollowTheLight) {
   EXPECT_EQ(paper_sift_preset().contrast_light, 0.0);
 }
 
-/// Bearings of features are those that the camera's model gives for their pixels.
+/// Bearings of features must be the directions that the camera model gives for their pixels.
 void expect_directions_of_the_model(const CameraRig& rig) {
   std::string problem;
   const CameraModel model = *camera_of(rig, problem);
@@ -85,7 +85,8 @@ TEST(SiftPerception, PutsDirectionsWhereTheModelHasThem) {
   expect_directions_of_the_model(rig);
 }
 
-/// The robot turns on the spot in the renderer: features move by the turn and hardly by more than their sigma says.
+/// The robot turns on the spot in the renderer: azimuths must change by the turn, with errors that agree with their
+/// sigma.
 TEST(SiftPerception, AzimuthsTurnWithTheRobot) {
   SiftPerception perception(test::lab_mirror_rig(), {});
   const test::SeenFeatures before = test::seen(perception, test::mirror_image().view());
@@ -116,7 +117,7 @@ TEST(SiftPerception, KnowsNoElevationWithoutAModel) {
   for (const Bearing& bearing : set.bearings) EXPECT_TRUE(std::isnan(bearing.elevation_rad));
 }
 
-/// Nothing of the rim, of the robot or of what lies outside the mirror.
+/// Pixels of the rim, of the robot and outside the mirror must not affect the features.
 TEST(SiftPerception, HiddenPartsDoNotMatter) {
   const CameraRig rig = test::lab_mirror_rig();
   Random random(1, RandomPurpose::scene);
@@ -132,7 +133,7 @@ TEST(SiftPerception, ReadsEveryUncompressedFormat) {
   for (const PixelFormat pixels : test::kUncompressed) {
     const BearingSet set = observed(test::in_format(test::mirror_image(), pixels));
     EXPECT_GE(set.bearings.size(), 40U) << name(pixels);
-    const bool blurred = pixels >= PixelFormat::bayer_rggb8;  // by its reconstruction
+    const bool blurred = pixels >= PixelFormat::bayer_rggb8;  // by the reconstruction of the mosaic
     if (!blurred) {
       EXPECT_EQ(set.descriptors, gray.descriptors) << name(pixels);
     }
@@ -171,7 +172,7 @@ TEST(SiftPerception, AMaskThatHidesEverythingHasNothing) {
   EXPECT_TRUE(observed(test::mirror_image(), rig).bearings.empty());
 }
 
-/// Any bytes, any size, any centre: no crash, no more features than asked for, and the same each time.
+/// Random bytes, sizes and centres: no crash, no more features than requested, and the same result in a repetition.
 TEST(SiftPerception, SurvivesAnything) {
   Random random(4, RandomPurpose::scene);
   for (int trial = 0; trial < 40; ++trial) {

@@ -1,4 +1,4 @@
-// The base that azimuth-sim plays on a CAN bus, read by the driver's own means and by the DBC file that is shipped.
+// The base that azimuth-sim simulates on a CAN bus, decoded by the driver and by the shipped DBC file.
 
 #include "sim/azimuth_sim/can_base.hpp"
 
@@ -14,7 +14,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// As config/can-robot.toml has it.
+/// The settings of config/can-robot.toml.
 CanSettings settings() {
   CanSettings settings;
   settings.left = "Wheels.LeftTicks";
@@ -30,7 +30,7 @@ CanLayout layout_in(const Dbc& dbc) {
   return layout ? *layout : CanLayout{};
 }
 
-/// A drive, heard on the bus.
+/// A drive, received from the bus.
 class Drive {
  public:
   explicit Drive(std::string_view faults = {})

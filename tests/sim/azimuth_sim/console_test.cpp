@@ -1,4 +1,4 @@
-// Commands at run time: what they do and what they answer, by line and by socket.
+// Effects and answers of the run-time commands, on lines and on a socket.
 
 #include "sim/azimuth_sim/console.hpp"
 

@@ -1,5 +1,5 @@
-// The real driver on the simulated robot for half an hour, in moments: both ends in one process, over a loopback
-// connection, in virtual time.
+// The real driver with the simulated robot for half an hour of virtual time. Both ends run in one process, over a
+// loopback connection.
 
 #include <algorithm>
 #include <cmath>
@@ -45,12 +45,12 @@ class DriverSoak {
 
   Simulation simulation;
   std::size_t readings = 0;
-  double driven_m = 0.0;         // as the driver says
-  double largest_error_m = 0.0;  // of a step in a settled session, where the driver admits no gap
+  double driven_m = 0.0;         // by the driver's odometry
+  double largest_error_m = 0.0;  // of a step in a settled session where the driver reports no gap
 
  private:
-  // A session's first SIPs wait on the line behind a CONFIGpac, 124 bytes or 129 ms long at 9600 baud, and over TCP
-  // nobody can tell: their stamps are late.
+  // The first SIPs of a session wait on the line behind a CONFIGpac, which is 124 bytes or 129 ms long at 9600 baud.
+  // Over TCP the driver cannot detect this delay, so their stamps are late.
   static constexpr std::size_t kUnsettled = 5;
 
   void let_robot_act() {
@@ -69,7 +69,7 @@ class DriverSoak {
     }
   }
 
-  /// Motion since the last reading against that of the wheels between the same stamps.
+  /// Compares the motion since the last reading with that of the wheels between the same stamps.
   void check(const OdometryReading& reading) {
     ++readings;
     const Pose2 T_wheels = reference_.pose_in_odom(std::max(reading.stamp, reference_now_));

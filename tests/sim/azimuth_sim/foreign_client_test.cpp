@@ -1,5 +1,4 @@
-// azimuth-sim with clients that do as programs written by others do: ARIA's position commands, and the way soar finds
-// its robot.
+// azimuth-sim with clients that behave like other programs: ARIA's position commands, and soar's search for its robot.
 
 #include <cmath>
 #include <csignal>
@@ -19,7 +18,7 @@ using namespace std::chrono_literals;
 using pioneer::Command;
 using pioneer::encode_command;
 
-constexpr auto kQuick = "10";  // times real time
+constexpr auto kQuick = "10";  // speed relative to real time
 
 int u16(const PacketBytes& data, std::size_t at) { return data.at(at) | (data.at(at + 1) << 8); }
 double signed_u16(const PacketBytes& data, std::size_t at) { return static_cast<std::int16_t>(u16(data, at)); }
@@ -29,7 +28,7 @@ Pose2 pose_of(const PacketBytes& sip) {
 }
 bool says_moving(const PacketBytes& sip) { return sip.front() == 0x33; }
 
-/// Orders, and waits until SIPs have said for a while that the robot stands.
+/// Sends a command and waits until the SIPs have reported for a while that the robot stands.
 Pose2 drive(WireClient& client, Command command, int argument) {
   client.send(encode_command(command, argument));
   PacketBytes sip;
@@ -76,8 +75,8 @@ TEST(ForeignClient, PositionCommandsReachTheirGoals) {
   EXPECT_LT(worst_deg, 1.0);
 }
 
-/// soar: CLOSE at each rate from the highest down, the port closed and opened again, then SYNC0 to SYNC2, each answer
-/// being the next packet that comes, with four failures in all.
+/// soar's connection procedure: CLOSE at each rate from the highest down, closing and reopening the port, then SYNC0 to
+/// SYNC2. soar takes the next packet as the answer to each and gives up after four failures.
 class Soar {
  public:
   explicit Soar(std::string device) : device_(std::move(device)) {}

@@ -1,4 +1,4 @@
-// azimuth-sim as its users start it.
+// azimuth-sim as a process with its command line.
 
 #include <csignal>
 #include <filesystem>

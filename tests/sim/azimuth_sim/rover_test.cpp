@@ -22,7 +22,7 @@ void expect_near(const Pose2& a, const Pose2& b, double tolerance_m, double tole
 
 class RoverOnEveryPath : public testing::TestWithParam<std::string_view> {};
 
-// One robot, one world: what a recorded run of a scenario says happened is what happens here.
+// The rover drives exactly as in the recorded run of the same scenario.
 TEST_P(RoverOnEveryPath, DrivesAsSimulateDoes) {
   const Scenario scenario = *scenario_named(GetParam(), 3, 1);
   const World world = simulate(scenario);

@@ -17,7 +17,7 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-constexpr auto kPatience = 10s;  // for a loaded machine; tests do not wait that long when all is well
+constexpr auto kPatience = 10s;  // for a loaded machine; the waits normally end much earlier
 
 bool wait_readable(int fd, std::chrono::milliseconds limit) {
   pollfd ready{fd, POLLIN, 0};

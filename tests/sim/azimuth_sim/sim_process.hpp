@@ -1,5 +1,5 @@
 #pragma once
-// azimuth-sim as a process, and a client of it as other people's programs are: blocking, on a real descriptor.
+// azimuth-sim as a process, and a blocking client on a real descriptor, like other people's programs.
 
 #include <chrono>
 #include <optional>
@@ -20,11 +20,11 @@ class SimProcess {
   SimProcess& operator=(const SimProcess&) = delete;
   ~SimProcess();
 
-  /// Says a line to its standard input.
+  /// Writes a line to the standard input of the process.
   void say(const std::string& line) const;
-  /// Its output until `text` comes, or nothing after some seconds.
+  /// Returns the output up to `text`, or nothing after a timeout of several seconds.
   std::optional<std::string> output_until(const std::string& text);
-  /// Asks it to end by this signal; its exit code, or -1 when it did not end by itself.
+  /// Sends `signal` to the process and returns its exit code, or -1 if it does not exit by itself.
   int end(int signal);
 
  private:
@@ -45,14 +45,14 @@ class WireClient {
 
   int fd() const { return fd_.get(); }
   bool send(const pioneer::Frame& frame) const;
-  /// Listens for so long; less when the line hangs up.
+  /// Listens for `duration`, or until the line hangs up.
   std::vector<PacketBytes> listen(std::chrono::milliseconds duration);
-  /// The next packet with this id, waiting for some seconds.
+  /// The next packet with this id; no value after a timeout of several seconds.
   std::optional<PacketBytes> await(std::uint8_t id);
   std::optional<PacketBytes> await_sip();
-  /// The next packet of any kind; nothing when none comes in so long.
+  /// The next packet of any kind; no value after `patience`.
   std::optional<PacketBytes> next(std::chrono::milliseconds patience);
-  /// SYNC0 to OPEN, and no sonar; whether all was answered.
+  /// Opens a session (SYNC0 to OPEN) and switches sonar off; false: an answer is missing.
   bool open_session();
   bool hung_up() const { return hung_up_; }
   std::size_t bytes() const { return bytes_; }

@@ -14,7 +14,7 @@ using namespace std::chrono_literals;
 using pioneer::Command;
 using pioneer::encode_command;
 
-/// A simulation and a client that opens a session at once and keeps it alive.
+/// A simulation with a client that opens a session at once and keeps it alive.
 class Session {
  public:
   explicit Session(const SimulationSettings& settings) : simulation(settings) {
@@ -26,7 +26,7 @@ class Session {
   }
 
   void send(const pioneer::Frame& frame) { simulation.pioneer().client_sends(frame.view(), now); }
-  /// In steps of `step`, with a PULSE now and then.
+  /// Advances in steps of `step` and sends PULSE from time to time.
   void run(Duration duration, Duration step = 10ms) {
     for (const Stamp end = now + duration; now < end;) {
       now = std::min(end, now + step);
@@ -66,7 +66,7 @@ TEST(Simulation, ShowsWhatARecordedRunShows) {
   }
 }
 
-// The odometry on the line is that of the scenario, drift and all, up to what whole millimetres and counts allow.
+// The odometry on the line equals that of the scenario, including drift, up to the resolution of 1 mm and of counts.
 TEST(Simulation, SipsDriftAsTheScenariosOdometerDoes) {
   const Scenario scenario = lab(6, 1);
   Session session(settings_of(scenario));
@@ -124,7 +124,7 @@ TEST(Simulation, LeftAloneItStandsIfItIsToAndAClientMayDriveIt) {
   EXPECT_EQ(session.simulation.pose_in_world(session.now), there);
 }
 
-/// Who judges by the truth takes a straight line between its samples.
+/// Evaluations interpolate the truth linearly between its samples.
 TEST(Simulation, TheTruthIsTakenOftenEnoughToInterpolate) {
   for (const Scenario& scenario : {coloured_lab(2), lab(2, 1)}) {
     Session session(settings_of(scenario));
@@ -167,7 +167,7 @@ TEST(Simulation, TheSameSeedGivesTheSameLineHoweverTimePasses) {
   EXPECT_NE(fine.bytes, eventful_half_minute(2, 1ms).bytes);
 }
 
-// What a soak test of a driver runs on: half an hour of robot in a moment.
+// Soak tests of drivers need half an hour of simulated time within seconds.
 TEST(Simulation, HalfAnHourPassesInSeconds) {
   Session session(settings_of(lab(1, 30)));
   session.send(encode_command(Command::encoder, 2));

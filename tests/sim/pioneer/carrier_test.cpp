@@ -1,4 +1,4 @@
-// The line outside the process: what a client sees of a pseudo-terminal and of a TCP port.
+// The line as seen by a client of a pseudo-terminal or of a TCP port.
 
 #include <arpa/inet.h>
 #include <array>
@@ -39,7 +39,7 @@ void write_all(int fd, const Bytes& bytes) {
   ASSERT_EQ(::write(fd, bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
 }
 
-/// What can be read within a second, up to `count` bytes; nothing more is waited for.
+/// Returns up to `count` bytes that arrive within a second, without waiting for more.
 Bytes read_some(int fd, std::size_t count) {
   Bytes bytes;
   pollfd ready{fd, POLLIN, 0};
@@ -52,7 +52,7 @@ Bytes read_some(int fd, std::size_t count) {
   return bytes;
 }
 
-/// Turns until `done`, at most for some seconds.
+/// Calls turn() until `done`, at most for several seconds.
 template <class Done>
 bool turn_until(Carrier& carrier, Bytes& received, Done done) {
   for (int i = 0; i < 500 && !done(); ++i) {

@@ -1,4 +1,4 @@
-// Faults as they are named on the command line, and when they come.
+// The names of faults on the command line, and their timing.
 
 #include "sim/pioneer/fault.hpp"
 

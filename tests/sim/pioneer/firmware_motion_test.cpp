@@ -1,4 +1,4 @@
-// How the controller drives, and what it says of it.
+// The controller's motion, and the motion that it reports.
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ TEST(Firmware, OdometryIsThatOfTheWheels) {
   bench.client.open_quietly();
   bench.client.sips(30s);
   const std::vector<SipLatch> latches = bench.pioneer.take_latches();
-  const Stamp origin = latches.front().stamp - 100ms;  // of OPEN
+  const Stamp origin = latches.front().stamp - 100ms;  // of the OPEN command
   const double rate = (right - left) / bench.chassis.track_m;
   for (const SipLatch& latch : latches) {
     const double t_s = to_seconds(latch.stamp - origin);
@@ -72,8 +72,8 @@ TEST(Firmware, EncodersComeOnceOrStream) {
   const auto streaming = encoders(2);
   EXPECT_GE(streaming.size(), 9U);
   const int step = u16(streaming[5].data, 1) - u16(streaming[4].data, 1);
-  EXPECT_NEAR(step & 0xFFFF, 20 * 128, 1);  // 20 mm a cycle
-  encoders(0);                              // one is on its way still
+  EXPECT_NEAR(step & 0xFFFF, 20 * 128, 1);  // 20 mm per cycle
+  encoders(0);                              // one packet is still on its way
   EXPECT_EQ(encoders(0).size(), 0U);
 }
 
@@ -134,7 +134,7 @@ TEST(Firmware, EveryMotionCommandIsUnderstood) {
   bench.client.ask(encode_command(Command::enable, 1), 100ms);
   bench.client.ask(encode_command(Command::rotation, -30), 1s);
   EXPECT_NEAR(bench.pioneer.firmware().driven()->turn_rate_rad_per_s, degrees_to_rad(-30), 1e-9);
-  const int left = 10, right = 15;  // times 20 mm/s
+  const int left = 10, right = 15;  // in units of 20 mm/s
   bench.client.ask(encode_command(Command::wheel_velocities, (left << 8) | right), 1900ms);
   EXPECT_NEAR(bench.pioneer.firmware().driven()->speed_m_per_s, 0.25, 1e-9);
   EXPECT_NEAR(bench.pioneer.firmware().driven()->turn_rate_rad_per_s, 0.1 / bench.chassis.track_m, 1e-9);

@@ -1,4 +1,4 @@
-// The controller behind its line: sessions and packets, as clients written by others rely on them.
+// Sessions and packets of the controller, as existing clients rely on them.
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ TEST(Firmware, SyncOutOfOrderIsAnsweredWithFFAndStartsOver) {
   }
 }
 
-/// Careful clients say CLOSE first, at every baud rate, and would take an answer for that to SYNC0.
+/// Careful clients first send CLOSE at every baud rate, and would take an answer to it for the answer to SYNC0.
 TEST(Firmware, ACloseThatFindsNoSessionIsNotAnswered) {
   for (const auto& before : {std::vector<std::uint8_t>{}, {0, 1, 2}}) {
     FirmwareBench bench;
@@ -103,7 +103,8 @@ TEST(Firmware, IoPacketsComeOnceOrStreamAndTellTheirInputs) {
     std::erase_if(packets, [](const Received& packet) { return packet.id() != 0xF0; });
     return packets;
   };
-  bench.client.ask(pioneer::encode_frame(Bytes{30, 0x3B, 0x5A, 0xFF}), 20ms);  // DIGOUT: all, then the low half only
+  // DIGOUT: all bits, then only the low half.
+  bench.client.ask(pioneer::encode_frame(Bytes{30, 0x3B, 0x5A, 0xFF}), 20ms);
   bench.client.ask(encode_command(Command::digital_out, 0x0F01), 20ms);
   const auto once = asked(1);
   ASSERT_EQ(once.size(), 1U);
@@ -111,12 +112,12 @@ TEST(Firmware, IoPacketsComeOnceOrStreamAndTellTheirInputs) {
   expected.resize(expected.size() + 16);
   EXPECT_EQ(once.front().data, expected);
   EXPECT_GE(asked(2).size(), 9U);
-  asked(0);  // one is on its way still
+  asked(0);  // one packet is still on its way
   EXPECT_EQ(asked(0).size(), 0U);
   EXPECT_EQ(bench.client.sips(200ms).back().data.at(20 + 4), 0x51) << "the standard SIP has the outputs, too";
 }
 
-/// What the controller does not know it lets pass, whatever its argument; it only keeps the watchdog quiet.
+/// The controller ignores unknown commands with any argument, except that they reset the watchdog.
 TEST(Firmware, UnknownCommandsAreIgnored) {
   FirmwareBench bench;
   bench.client.open_quietly();
@@ -167,8 +168,8 @@ TEST(Firmware, AnOutOfRangeBaudIsIgnored) {
   EXPECT_EQ(bench.pioneer.firmware().baud(), 9600);
 }
 
-// The sequence the makers' own library goes through: CLOSE at every rate, SYNC0 that go unanswered at the wrong one,
-// "dislodging" OPENs, then its set of requests after the start.
+// The connection sequence of the manufacturer's library: CLOSE at every rate, SYNC0 that the controller cannot answer
+// at a wrong rate, "dislodging" OPENs, then the requests after the start.
 TEST(Firmware, BearsTheOpeningOfTheMakersLibrary) {
   PioneerModel model;
   model.start_baud = 19200;

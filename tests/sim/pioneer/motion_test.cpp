@@ -1,4 +1,4 @@
-// Position commands and the limits they keep to, as clients written by others rely on them.
+// Position commands and their limits, as existing clients rely on them.
 
 #include <algorithm>
 #include <cmath>
@@ -13,12 +13,12 @@ namespace {
 using pioneer::Command;
 using pioneer::encode_command;
 
-constexpr double kGoal_mm = 10.0, kGoal_deg = 1.0;  // what is asked of position commands
+constexpr double kGoal_mm = 10.0, kGoal_deg = 1.0;  // tolerances of position commands
 
 double heading_deg(const Received& sip) { return sip_heading(sip) * 360.0 / 4096; }
 double turned_deg(double to, double from) { return rad_to_degrees(wrap(degrees_to_rad(to - from))); }
 
-/// A client that drives: in a session, motors on, PULSE twice a second.
+/// A client that drives: in a session, with motors on and PULSE twice a second.
 class Motion : public testing::Test {
  public:
   void SetUp() override {
@@ -29,13 +29,13 @@ class Motion : public testing::Test {
   void order(Command command, int argument) { client.ask(encode_command(command, argument), 10ms); }
   void order(Command command) { client.ask(encode_command(command), 10ms); }
 
-  /// Keeps the watchdog quiet for so long.
+  /// Waits for `duration` and keeps the watchdog quiet.
   void wait(Duration duration) {
     for (const Stamp end = client.now + duration; client.now < end;) {
       client.ask(encode_command(Command::pulse), std::min<Duration>(end - client.now, 500ms));
     }
   }
-  /// Until the robot stands; how long that took, to a cycle.
+  /// Waits until the robot stands and returns the time in seconds, to one cycle.
   double seconds_to_rest() {
     const Stamp begin = client.now;
     wait(300ms);
@@ -61,7 +61,7 @@ TEST_F(Motion, MoveGoesItsDistanceEitherWay) {
     order(Command::move, distance_mm);
     expected_mm += distance_mm;
     seconds_to_rest();
-    EXPECT_NEAR(x_mm(), expected_mm, 1.5) << distance_mm;  // of kGoal_mm
+    EXPECT_NEAR(x_mm(), expected_mm, 1.5) << distance_mm;  // within kGoal_mm plus rounding
     EXPECT_NEAR(heading(), 0.0, 0.1);
   }
   static_assert(kGoal_mm > 1.5);
@@ -95,7 +95,7 @@ TEST_F(Motion, HeadTurnsToAnAbsoluteHeadingTheShortWay) {
     wait(200ms);
     EXPECT_EQ(turn_rate_deg() > 0, counter_clockwise) << goal_deg;
     seconds_to_rest();
-    EXPECT_NEAR(turned_deg(heading(), goal_deg), 0.0, 0.2) << goal_deg;  // of kGoal_deg
+    EXPECT_NEAR(turned_deg(heading(), goal_deg), 0.0, 0.2) << goal_deg;  // within kGoal_deg
     before = goal_deg;
   }
   static_assert(kGoal_deg > 0.2);
@@ -194,7 +194,7 @@ TEST_F(Motion, EmergencyStopIsAtOnceAndUntilTheNextOrder) {
 TEST_F(Motion, TheWatchdogPausesAWay) {
   order(Command::move, 5000);
   wait(1s);
-  client.listen(6s);  // nothing is said
+  client.listen(6s);  // without any command
   EXPECT_FALSE(moving());
   EXPECT_LT(x_mm(), 4000.0);
   seconds_to_rest();
@@ -243,7 +243,7 @@ TEST_F(Motion, ConfigurationTellsThePresentLimits) {
   std::erase_if(packets, is_sip);
   ASSERT_EQ(packets.size(), 1U);
   const Bytes& data = packets.front().data;
-  const std::size_t limits = 1 + 8 + 8 + 9 + 1 + 10 + 12 + 3 + 5 + 6 + 1 + 8;  // behind joyRotVel
+  const std::size_t limits = 1 + 8 + 8 + 9 + 1 + 10 + 12 + 3 + 5 + 6 + 1 + 8;  // offset after joyRotVel
   EXPECT_EQ(u16(data, limits), 360);
   EXPECT_EQ(u16(data, limits + 2), 456);
   EXPECT_EQ(u16(data, limits + 4), 77);

@@ -12,7 +12,7 @@ using testing::ElementsAre;
 Bytes bytes_of(const pioneer::Frame& frame) { return {frame.bytes.data(), frame.bytes.data() + frame.size}; }
 Bytes data_of(const pioneer::Frame& frame) { return {frame.bytes.data() + 3, frame.bytes.data() + frame.size - 2}; }
 
-/// Reads a packet's data field by field, as its description lists them.
+/// Reads a packet's data field by field, in the order of the protocol description.
 class FieldReader {
  public:
   explicit FieldReader(const pioneer::Frame& frame) : data_(data_of(frame)) {}

@@ -1,6 +1,6 @@
 #pragma once
-// What the tests of the simulated Pioneer have in common: a chassis that rolls steadily, and a client that knows the
-// protocol from its description only.
+// Shared by the tests of the simulated Pioneer: a chassis with constant speed, and a client written from the protocol
+// description only.
 
 #include <gtest/gtest.h>
 #include <optional>
@@ -38,19 +38,19 @@ class SteadyChassis final : public Chassis {
 
 struct Received {
   Bytes data;
-  Stamp at{};  ///< of its last byte
+  Stamp at{};  ///< arrival of the last byte
   std::uint8_t id() const { return data.front(); }
 };
 
 inline bool is_sip(const Received& packet) { return pioneer::packet_id::is_sip(packet.id()); }
 inline int u16(const Bytes& data, std::size_t offset) { return data[offset] | (data[offset + 1] << 8); }
 inline int i16(const Bytes& data, std::size_t offset) { return static_cast<std::int16_t>(u16(data, offset)); }
-// Fields of a standard SIP, by their offset behind the id.
+// Fields of a standard SIP, by their offset after the id.
 inline int sip_x(const Received& sip) { return u16(sip.data, 1); }
 inline int sip_y(const Received& sip) { return u16(sip.data, 3); }
 inline int sip_heading(const Received& sip) { return i16(sip.data, 5); }
 
-/// In virtual time; keeps every byte and every packet.
+/// A client in virtual time that keeps every byte and every packet.
 class PlainClient {
  public:
   explicit PlainClient(SimulatedPioneer& pioneer) : pioneer_(pioneer) {}
@@ -61,7 +61,7 @@ class PlainClient {
 
   void send(const pioneer::Frame& frame) { pioneer_.client_sends(frame.view(), now); }
 
-  /// Listens for so long; the packets that came meanwhile.
+  /// Listens for `duration` and returns the packets that arrived.
   std::vector<Received> listen(Duration duration) {
     const std::size_t before = packets.size();
     for (const Stamp end = now + duration; now < end;) {
@@ -77,7 +77,7 @@ class PlainClient {
     return listen(patience);
   }
 
-  /// SYNC0, SYNC1, SYNC2, OPEN.
+  /// Opens a session: SYNC0, SYNC1, SYNC2, OPEN.
   void open() {
     for (const std::uint8_t sync : {pioneer::kSync0, pioneer::kSync1, pioneer::kSync2}) {
       const auto answer = ask(pioneer::encode_command(sync));
@@ -88,7 +88,7 @@ class PlainClient {
     listen(8ms);
     ASSERT_TRUE(pioneer_.firmware().in_session());
   }
-  /// Likewise, and without sonar.
+  /// Opens a session and switches sonar off.
   void open_quietly() {
     open();
     ask(pioneer::encode_command(pioneer::Command::sonar, 0), 20ms);
@@ -117,7 +117,7 @@ class PlainClient {
   pioneer::PacketScanner scanner_;
 };
 
-/// A client at a controller whose robot rolls steadily.
+/// A client and a controller whose robot rolls at constant speed.
 struct FirmwareBench {
   explicit FirmwareBench(const PioneerModel& model = {}, double left = 0.0, double right = 0.0)
       : chassis(left, right), pioneer(model, chassis, 1), client(pioneer) {}

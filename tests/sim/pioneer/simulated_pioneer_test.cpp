@@ -1,4 +1,4 @@
-// Controller and line together: every fault does what its name says, and nothing is left to chance.
+// Controller and line together: every fault has its named effect, and everything is reproducible.
 
 #include <algorithm>
 #include <cmath>
@@ -50,7 +50,7 @@ TEST_F(SimulatedPioneerTest, NoiseSpoilsChecksumsAtItsRate) {
   client.open_quietly();
   fault("noise=0.002");
   const auto sips = client.sips(200s);
-  const double expected = 2000 * std::pow(1 - 0.002, 41);  // all bytes good
+  const double expected = 2000 * std::pow(1 - 0.002, 41);  // a SIP arrives if all its bytes are undamaged
   EXPECT_NEAR(static_cast<double>(sips.size()), expected, 60);
   fault("noise=0");
   EXPECT_GE(client.sips(10s).size(), 99U);
@@ -70,7 +70,7 @@ TEST_F(SimulatedPioneerTest, LostSipsAreMissingAsAWhole) {
   EXPECT_EQ(pioneer.counts().sips + pioneer.counts().lost_sips, 2000U + 0U);
 }
 
-/// The largest step back of a counter that should grow.
+/// The largest decrease of a counter that otherwise grows.
 int wrap_of(const std::vector<Received>& sips, int (*field)(const Received&)) {
   int largest = 0;
   for (std::size_t i = 1; i < sips.size(); ++i) largest = std::max(largest, field(sips[i - 1]) - field(sips[i]));
@@ -152,7 +152,7 @@ TEST_F(SimulatedPioneerTest, SonarTrafficFillsALineOf9600) {
   const auto sips = client.sips(10s);
   for (const Received& sip : sips) EXPECT_EQ(sip.data.size() + pioneer::kFrameOverhead, 89U);
   EXPECT_GT(client.bytes.size(), 8800U) << "of 9600 there is room for";
-  client.ask(encode_command(Command::encoder, 2), 30s);  // too much
+  client.ask(encode_command(Command::encoder, 2), 30s);  // more than the line can carry
   EXPECT_GT(pioneer.counts().crowded_out, 0U);
   EXPECT_EQ(client.bad_checksums(), 0U) << "what does not fit is left out whole";
 }
@@ -172,7 +172,7 @@ TEST_F(SimulatedPioneerTest, AnOldSessionMayHaveRaisedTheBaud) {
 TEST_F(SimulatedPioneerTest, SilencePassesAndTheSessionWithIt) {
   client.open_quietly();
   fault("silence=3");
-  client.send(encode_command(Command::close));  // is not heard
+  client.send(encode_command(Command::close));  // gets lost
   EXPECT_LE(client.sips(3s).size(), 1U);
   EXPECT_GE(client.sips(1s).size(), 9U);
 }
@@ -239,7 +239,7 @@ TEST_F(SimulatedPioneerTest, LatchesAreTheSipsOnTheLine) {
   const auto latches = pioneer.take_latches();
   ASSERT_GE(latches.size(), sips.size());
   const std::size_t more = latches.size() - sips.size();
-  ASSERT_LE(more, 1U);  // the last is on its way
+  ASSERT_LE(more, 1U);  // the last packet is still on its way
   for (std::size_t i = 0; i < sips.size(); ++i) {
     EXPECT_EQ(latches[i].pose.x, sip_x(sips[i]));
     EXPECT_EQ(latches[i].pose.heading, sip_heading(sips[i]));
@@ -249,7 +249,7 @@ TEST_F(SimulatedPioneerTest, LatchesAreTheSipsOnTheLine) {
   }
 }
 
-/// Half an hour with everything going wrong in turn.
+/// All bytes to the client in half an hour with changing faults.
 Bytes bytes_of_a_bad_half_hour(std::uint64_t seed) {
   SteadyChassis chassis(0.4, 0.42);
   SimulatedPioneer pioneer(PioneerModel{}, chassis, seed);

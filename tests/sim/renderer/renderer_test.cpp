@@ -78,7 +78,7 @@ TEST(Renderer, MaskIsBlackAndTheRestIsNot) {
 }
 
 TEST(Renderer, HeadingTurnsTheImageAboutItsCentre) {
-  // A quarter turn maps the pixel grid onto itself, so that frames must agree pixel for pixel but for rounding.
+  // A quarter turn maps the pixel grid onto itself, so the frames agree pixel by pixel except for rounding.
   const RenderCamera camera = mirror_camera();
   Renderer renderer(coloured_scene(lab(1, 1)), camera);
   const auto straight = frame_of(renderer, camera, {4.0, 3.0, 0.2});
@@ -89,7 +89,8 @@ TEST(Renderer, HeadingTurnsTheImageAboutItsCentre) {
   int different = 0, compared = 0;
   for (int dv = -370; dv <= 370; ++dv) {
     for (int du = -370; du <= 370; ++du, ++compared) {
-      // Heading is up and azimuth grows to the left: a left turn moves what was ahead to the right.
+      // The heading is up in the image and azimuth grows to the left: after a left turn, objects ahead appear to the
+      // right.
       different += std::abs(at(straight, 512 + du, 384 + dv) - at(turned, 512 - dv, 384 + du)) > 12 ? 1 : 0;
     }
   }
@@ -97,7 +98,7 @@ TEST(Renderer, HeadingTurnsTheImageAboutItsCentre) {
 }
 
 TEST(Renderer, LookingExactlyAlongAWallIsNothingSpecial) {
-  // With heading 0 the pixels straight ahead of the centre look along the x axis to the last bit.
+  // With heading 0, the pixels straight ahead of the centre look exactly along the x axis.
   const RenderCamera camera = mirror_camera();
   Renderer renderer(empty_room(), camera);
   const auto along = frame_of(renderer, camera, {1.0, 0.5, 0.0}), beside = frame_of(renderer, camera, {1.0, 0.5, 1e-6});
@@ -144,7 +145,7 @@ TEST(Renderer, AllocatesNothingPerFrame) {
   EXPECT_EQ(allocations() - before, 0U);
 }
 
-/// Driving over a landmark, into a corner, along a wall: nothing but a frame comes of it.
+/// Poses inside a landmark, in a corner or along a wall must also produce a frame.
 TEST(Renderer, AnyPoseHasAFrame) {
   const Scenario scenario = lab(2, 1);
   RenderCamera camera = mirror_camera();

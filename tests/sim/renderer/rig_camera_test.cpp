@@ -50,7 +50,8 @@ TEST(RigCamera, SaysWhatIsMissing) {
   EXPECT_FALSE(render_camera_of(CameraRig{}, problem));
   EXPECT_FALSE(problem.empty()) << "a source of bearings has no image";
   for (const auto forget : {+[](CameraRig& rig) {
-                              rig.image.centre_px.reset();  // which is the middle of the image while the size is known
+                              // The default is the middle of the image, if the size is known.
+                              rig.image.centre_px.reset();
                               rig.image.width_px.reset();
                             },
                             +[](CameraRig& rig) { rig.model = HyperbolicMirrorRig{.a_mm = 28.095, .b_mm = 23.4125}; },

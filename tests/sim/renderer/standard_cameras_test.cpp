@@ -48,7 +48,7 @@ TEST_P(StandardCamera, SeesTheSameWhenScaled) {
     const Eigen::Vector3d direction(std::cos(azimuth_rad), std::sin(azimuth_rad), GetParam() == "mirror" ? -0.3 : 0.8);
     const auto pixel = whole_camera->model.pixel(direction), half_pixel = half_camera->model.pixel(direction);
     ASSERT_TRUE(pixel && half_pixel);
-    // The same place of the image, counted from its corner.
+    // The same point of the image, measured from the image's corner.
     EXPECT_NEAR(half_pixel->x() + 0.5, (pixel->x() + 0.5) / 2.0, 1e-6);
     EXPECT_NEAR(half_pixel->y() + 0.5, (pixel->y() + 0.5) / 2.0, 1e-6);
   }

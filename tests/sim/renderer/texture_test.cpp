@@ -17,7 +17,7 @@ TEST(PackedColour, MixGoesFromOneToTheOther) {
   EXPECT_EQ(mix(colour(255, 255, 255), colour(255, 255, 255), 77), colour(255, 255, 255));
 }
 
-/// 4 x 4 texels of 1 m, value 16 * row + column in red.
+/// 4 x 4 texels of 1 m with the value 16 * row + column in red.
 Texture ramp() {
   std::vector<PackedColour> texels;
   for (unsigned y = 0; y < 4; ++y) {

@@ -22,7 +22,7 @@ inline RenderCamera camera_of(const RadialProfile& profile, double inner_px, dou
 }
 inline RenderCamera mirror_camera() { return camera_of(HyperbolicMirror{28.095, 23.4125, 1035.376}, 60.0, 376.0); }
 inline RenderCamera parabolic_camera() { return camera_of(ParabolicMirror{285.403}, 60.0, 376.0); }
-/// Sees from straight up to 20 degrees below the horizon.
+/// The view extends from the zenith to 20 degrees below the horizon.
 inline RenderCamera fisheye_camera() { return camera_of(EquidistantFisheye{200.0, 1.92}, 0.0, 384.0); }
 
 struct NamedRenderCamera {
@@ -41,7 +41,7 @@ inline RenderScene empty_room() {
   return scene;
 }
 
-/// One frame in a packed format.
+/// Renders one frame in a packed format.
 inline std::vector<std::byte> frame_of(Renderer& renderer, const RenderCamera& camera, const Pose2& T_world_body,
                                        PixelFormat pixels = PixelFormat::gray8) {
   const FrameFormat format = packed_format(pixels, camera.width_px, camera.height_px);
@@ -55,18 +55,18 @@ inline std::vector<std::byte> frame_of(const RenderScene& scene, const RenderCam
   return frame_of(renderer, camera, T_world_body, pixels);
 }
 
-/// The direction from the camera to a point, by geometry alone.
+/// The direction from the camera to a point, computed from geometry only.
 inline Direction predicted(const RenderCamera& camera, const Pose2& T_world_body, const Eigen::Vector3d& p_world) {
   const Pose2 T_camera_world = inverse(T_world_body * camera.T_body_camera);
   const Eigen::Vector2d flat = T_camera_world * Eigen::Vector2d(p_world.head<2>());
   return direction(Eigen::Vector3d(flat.x(), flat.y(), p_world.z() - camera.height_m));
 }
 
-/// What changed between two frames, as a weighted cloud of pixels.
+/// The difference between two frames, as a weighted set of pixels.
 struct Change {
   double weight = 0.0;
   Pixel centroid = Pixel::Zero();
-  double azimuth_error_px = 0.0;  ///< mean distance across the line of sight predicted, counter-clockwise positive
+  double azimuth_error_px = 0.0;  ///< mean distance across the predicted line of sight, counter-clockwise positive
 };
 inline Change change_between(const std::vector<std::byte>& before, const std::vector<std::byte>& after,
                              const RenderCamera& camera, double azimuth_rad) {

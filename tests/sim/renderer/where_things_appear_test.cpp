@@ -1,4 +1,4 @@
-// A frame is right when things are where the camera's model says.
+// Objects must appear in the frame where the camera model projects them.
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ RenderScene with_cylinder(const RenderCylinder& cylinder) {
   return scene;
 }
 
-/// Black, so that every pixel's change tells how much of the cylinder it sees.
+/// Black, so that the change of each pixel is proportional to the covered part of the pixel.
 RenderCylinder black_cylinder(const Eigen::Vector2d& place) { return {place, 0.08, 0.8, 1.4, 0}; }
 
 TEST_P(WhereThingsAppear, CylinderAtItsAzimuth) {
@@ -52,7 +52,7 @@ TEST_P(WhereThingsAppear, TurningMovesTheCylinderByTheTurn) {
   const Eigen::Vector2d place{2.5, -1.0};
   Renderer empty(empty_room(), camera()), renderer(with_cylinder(black_cylinder(place)), camera());
   for (int step = 0; step < 40; ++step) {
-    const Pose2 pose{0.1, 0.2, wrap(0.003 * step)};  // less than a pixel a step: no jumps
+    const Pose2 pose{0.1, 0.2, wrap(0.003 * step)};  // less than a pixel per step
     const double azimuth = predicted(camera(), pose, {place.x(), place.y(), 1.1}).azimuth_rad;
     const Change seen =
         change_between(frame_of(empty, camera(), pose), frame_of(renderer, camera(), pose), camera(), azimuth);
@@ -72,7 +72,7 @@ TEST_P(WhereThingsAppear, DrivingMovesTheCylinderAsPredicted) {
   }
 }
 
-/// How far along the image's radius at one azimuth something is seen, in pixels: from the summed change.
+/// Radial extent of an object in the image at one azimuth, in pixels, from the summed change.
 double radial_extent_px(const std::vector<std::byte>& before, const std::vector<std::byte>& after,
                         const RenderCamera& camera, double azimuth_rad, double& middle_px) {
   double extent = 0.0, moment = 0.0;
@@ -106,7 +106,7 @@ TEST_P(WhereThingsAppear, CylinderFromItsFootToItsTop) {
   double middle_px = 0.0;
   const double extent_px = radial_extent_px(frame_of(empty, camera(), pose), frame_of(renderer, camera(), pose),
                                             camera(), azimuth, middle_px);
-  // Its near side is what shows.
+  // The near side of the cylinder is visible.
   const double near_m = place.norm() - 0.3;
   const auto radius_of = [&](double height_m) {
     const Direction seen{azimuth, std::atan2(height_m - camera().height_m, near_m)};
@@ -131,7 +131,7 @@ TEST(WhereThingsAre, LampsInTheCeiling) {
   }
 }
 
-/// A rectangle of the ceiling in the image, by the camera's model alone.
+/// A rectangle of the ceiling in the image, computed from the camera model only.
 struct Patch {
   double area_px2 = 0.0;
   Pixel centroid = Pixel::Zero();
@@ -160,7 +160,7 @@ Patch patch_of(const RenderLamp& lamp, const RenderCamera& camera, const Pose2& 
   return patch;
 }
 
-/// Thinner than a pixel, they neither flicker nor break into pieces.
+/// Lamps thinner than a pixel must neither flicker nor break into pieces.
 TEST(WhereThingsAre, LampsFarAwayKeepTheirLight) {
   const RenderCamera camera = test::fisheye_camera();
   RenderScene scene;
@@ -193,7 +193,7 @@ TEST(WhereThingsAre, PosterOnEachWall) {
     scene.posters = {poster};
     const Direction seen = predicted(camera, pose, place);
     const Change change = change_between(bare, frame_of(scene, camera, pose), camera, seen.azimuth_rad);
-    // Its print weighs the pixels unevenly, by a few of them at most.
+    // The texture weights the pixels unevenly, which shifts the centroid by a few pixels at most.
     EXPECT_NEAR((change.centroid - *camera.model.pixel(seen)).norm(), 0.0, 2.0) << place.transpose();
     EXPECT_GT(change.weight, 500.0);
   }

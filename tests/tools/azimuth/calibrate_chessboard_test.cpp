@@ -20,7 +20,7 @@ std::string jpeg_of(const ImageView& image) {
   return {reinterpret_cast<const char*>(file.data()), file.size()};
 }
 
-/// Made once: boards at different places, and one image without.
+/// JPEG images of boards in different poses, and one image without a board. They are rendered once per process.
 const std::vector<std::string>& rendered_files() {
   static const std::vector<std::string> files = [] {
     std::mt19937_64 random(1);
@@ -72,7 +72,7 @@ TEST_F(CalibrateChessboard, WritesARigAndAPicture) {
   ASSERT_TRUE(lens) << problem;
   for (double theta = 0.2; theta < 1.2; theta += 0.2)
     EXPECT_NEAR(radius_px(*lens, theta), radius_px(lens_185(), theta), 0.5) << theta;
-  // and of another board with the rig found to begin with
+  // A second calibration starts from the rig that the first one found.
   const Outcome again = calibrate("9x6", {"--rig", rig_});
   EXPECT_EQ(again.code, 0) << again.err;
   EXPECT_THAT(again.out, HasSubstr(" squares from the lens"));

@@ -1,4 +1,4 @@
-// azimuth calibrate of a drive, as a whole and by parts, and check, from outside.
+// Runs `azimuth calibrate` on a drive, with all steps and with single ones, and `azimuth check`, as commands.
 
 #include <cmath>
 #include <filesystem>
@@ -59,7 +59,7 @@ TEST_F(CalibrateDrive, HeadingWritesARigAndAPicture) {
   EXPECT_THAT(file_bytes(picture_), HasSubstr("<svg"));
 }
 
-/// A copy of one lap without its rig, of a camera that is turned by so much.
+/// A copy of one lap without its rig. The camera is turned by `yaw_rad`; `clockwise` mirrors the azimuths.
 std::string lap_without_rig(const std::string& folder, double yaw_rad, bool clockwise = false) {
   std::filesystem::copy(one_lap(), folder, std::filesystem::copy_options::recursive);
   std::filesystem::remove(folder + "/rig.toml");
@@ -187,7 +187,7 @@ TEST_F(CalibrateDrive, ARigThatCheckPutsRightIsRight) {
 }
 
 TEST_F(CalibrateDrive, ReadingsASecondApartAreJudgedAndNotRefused) {
-  // GIVEN one reading a second, and a rig by which the next one comes later than a bearing waits for live
+  // GIVEN one reading a second, and a rig whose lag makes the next reading arrive later than the live pipeline waits
   const std::string folder = scratch_ / "slow", late = scratch_ / "late.toml";
   std::filesystem::copy(one_lap(), folder, std::filesystem::copy_options::recursive);
   std::istringstream all(file_bytes(folder + "/odometry.csv"));
@@ -198,7 +198,7 @@ TEST_F(CalibrateDrive, ReadingsASecondApartAreJudgedAndNotRefused) {
   Rig rig = *read_rig_file(folder + "/rig.toml");
   rig.odometry.lag_s = 0.3;
   write_file(late, rig_text(rig));
-  // THEN the drive is judged, and it is time that is wrong: a lag or, as far as so few readings tell, a clock
+  // THEN the drive is judged, and the verdict blames the time: a lag, or a clock, which so few readings cannot separate
   const Outcome outcome = azimuth({"check", folder, "--rig", late});
   EXPECT_EQ(outcome.code, 1) << outcome.err;
   EXPECT_THAT(outcome.out, AnyOf(HasSubstr("lag         WRONG"), HasSubstr("clock       WRONG")));
@@ -219,7 +219,7 @@ TEST_F(CalibrateDrive, CheckOfBearingsWithoutNamesSaysThatItCannotTell) {
   EXPECT_THAT(outcome.out, HasSubstr("cannot tell without (camera.identities)"));
 }
 
-/// Of images, where nobody names what is seen.
+/// Checks a run of images, whose bearings have no identities.
 class CheckOffice : public testing::Test {
  protected:
   void SetUp() override {

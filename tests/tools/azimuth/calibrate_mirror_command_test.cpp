@@ -53,14 +53,14 @@ TEST_F(CalibrateMirror, LeavesOutImagesThatCannotBeRead) {
   EXPECT_THAT(none.err, HasSubstr("empty.jpg: "));
 }
 
-/// What a replay says of it.
+/// The time with health "tracking" that the output of a replay names [s].
 double tracked_s(const std::string& report) {
   const std::string tracking = " tracking ";
   const std::size_t line = report.find("\nhealth "), at = report.find(tracking, line);
   return at < report.find('\n', line + 1) ? std::stod(report.substr(at + tracking.size())) : 0.0;
 }
 
-/// By what a drive through each world shows, not by what the world is called.
+/// The images of the drive decide the choice; the name of the world is not used.
 TEST_F(CalibrateMirror, ChoosesTheFrontEndThatTracks) {
   for (const auto& [world, front_end] : {std::pair("coloured-lab", "colour"), std::pair("hall", "sift")}) {
     const std::string run = scratch_ / world, rig = run + "/calibrated.toml";

@@ -13,7 +13,7 @@
 namespace azimuth::test {
 namespace {
 
-/// Unlike a pipe, a file holds whatever is written without a reader.
+/// The output goes to a file because a pipe that nobody reads would block the command.
 void redirect(posix_spawn_file_actions_t& actions, int descriptor, const std::string& file) {
   posix_spawn_file_actions_addopen(&actions, descriptor, file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
 }

@@ -10,14 +10,14 @@
 namespace azimuth::test {
 
 struct Outcome {
-  int code = -1;  ///< exit code; -1: killed
+  int code = -1;  ///< Exit code; -1: a signal killed the command.
   std::string out, err;
 };
 
-/// Runs the azimuth command with these arguments; nothing is interpreted by a shell.
+/// Runs the azimuth command with these arguments, without a shell.
 Outcome azimuth(const std::vector<std::string>& arguments);
 
-/// A folder whose files are words of a command line.
+/// A temporary folder that gives the paths of its files as arguments of a command line.
 class ScratchFolder {
  public:
   std::string operator/(const std::string& name) const { return (folder_ / name).string(); }
@@ -28,10 +28,10 @@ class ScratchFolder {
 
 std::string file_bytes(const std::filesystem::path& file);
 void write_file(const std::filesystem::path& file, const std::string& bytes);
-/// Every file of a folder by its name.
+/// The content of every file of a folder, keyed by file name.
 std::map<std::string, std::string> folder_bytes(const std::filesystem::path& folder);
 
-/// What copy_one_lap() writes; made once a process.
+/// The folder that copy_one_lap() writes. It is made once per process.
 std::string one_lap();
 
 /// The digest that a replay of this run prints, or what went wrong.

@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Reports of short drives in as many worlds, replayed by this version.
+/// Reports of short simulated drives, replayed by this version as "before" and as "after".
 class CompareCommand : public testing::Test {
  protected:
   void replay_all(int runs) {
@@ -42,12 +42,12 @@ class CompareCommand : public testing::Test {
     ASSERT_EQ(outcome.code, 0) << outcome.err;
   }
 
-  /// As JSON, with nothing that a machine adds.
+  /// The comparison of `version` with "before" as JSON, without the costs, which differ from machine to machine.
   Json compared(const std::string& version, int exit_code) {
     const std::string json = place("compared.json"), page = place("compared.html"), limits = place("limits.toml");
     write_file(limits, "");
-    outcome_ = azimuth({"compare", place(version), "--baseline", place("before"), "--json", json, "--html", page,
-                        "--limits", limits, "--without-costs"});
+    outcome_ = azimuth({"report", "compare", place(version), "--baseline", place("before"), "--json", json, "--html",
+                        page, "--limits", limits, "--without-costs"});
     EXPECT_EQ(outcome_.code, exit_code) << outcome_.err;
     return Json::parse(file_bytes(json));
   }
@@ -90,7 +90,7 @@ TEST_F(CompareCommand, CutAndMissingReportsAreNamedAndTheRestIsDone) {
   std::filesystem::copy(place("after"), place("less"));
   std::filesystem::remove(place("less") + "/3.json");
   write_file(place("less") + "/2.json", file_bytes(place("after") + "/2.json").substr(0, 200));
-  const Outcome outcome = azimuth({"compare", place("less"), "--baseline", place("before")});
+  const Outcome outcome = azimuth({"report", "compare", place("less"), "--baseline", place("before")});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   for (const char* line : {"compared    1 run: 0 worse", "2 missing", "missing     drive 3\n", "2.json: is cut short"})
     EXPECT_NE(outcome.out.find(line), std::string::npos) << line << "\nis not in\n" << outcome.out;
@@ -100,7 +100,7 @@ TEST_F(CompareCommand, WithoutCostsTheTablesAreTheSameBitForBit) {
   replay_all(2);
   const auto tables = [&](const std::string& version) {
     const std::string json_file = place("table.json");
-    const Outcome outcome = azimuth({"compare", place(version), "--json", json_file, "--without-costs"});
+    const Outcome outcome = azimuth({"report", "compare", place(version), "--json", json_file, "--without-costs"});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     return outcome.out + file_bytes(json_file);
   };
@@ -108,7 +108,7 @@ TEST_F(CompareCommand, WithoutCostsTheTablesAreTheSameBitForBit) {
 }
 
 TEST_F(CompareCommand, RefusesWhatHasNoReport) {
-  const Outcome outcome = azimuth({"compare", one_lap() + "/odometry.csv"});
+  const Outcome outcome = azimuth({"report", "compare", one_lap() + "/odometry.csv"});
   EXPECT_EQ(outcome.code, 2);
   EXPECT_NE(outcome.err.find("odometry.csv: is cut short, or no JSON"), std::string::npos) << outcome.err;
 }

@@ -13,7 +13,7 @@ TEST(EvaluateCommand, AgreesWithTheReplayThatWroteTheTrajectory) {
   const ScratchFolder scratch;
   const std::string tum = scratch / "lab.tum", replayed = scratch / "replay.json", judged = scratch / "evaluate.json";
   ASSERT_EQ(azimuth({"replay", test::one_lap(), "--tum", tum, "--report", replayed}).code, 0);
-  const Outcome outcome = azimuth({"evaluate", tum, test::one_lap(), "--report", judged});
+  const Outcome outcome = azimuth({"report", "trajectory", tum, test::one_lap(), "--report", judged});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const Json from_replay = Json::parse(file_bytes(replayed))["pose"], json = Json::parse(file_bytes(judged));
   for (const char* key : {"rmse_m", "mean_m", "max_m", "final_m", "heading_rmse_rad", "heading_max_rad"})
@@ -34,7 +34,7 @@ TEST_P(BadTrajectories, AreRefusedByLine) {
   const ScratchFolder scratch;
   const std::string tum = scratch / "bad.tum";
   write_file(tum, GetParam().text);
-  const Outcome outcome = azimuth({"evaluate", tum, test::one_lap()});
+  const Outcome outcome = azimuth({"report", "trajectory", tum, test::one_lap()});
   EXPECT_EQ(outcome.code, 2);
   EXPECT_NE(outcome.err.find(GetParam().complaint), std::string::npos) << outcome.err;
 }

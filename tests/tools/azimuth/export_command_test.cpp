@@ -21,7 +21,7 @@ std::vector<std::string> lines_of(const std::string& file) {
   return lines;
 }
 
-/// Fields of a line of a table, or of TUM's format.
+/// The numbers in one line of a CSV table or of a TUM file.
 std::vector<double> numbers_of(std::string line) {
   for (char& letter : line) letter = letter == ',' ? ' ' : letter;
   std::vector<double> numbers;
@@ -32,7 +32,7 @@ std::vector<double> numbers_of(std::string line) {
 
 class ExportCommand : public testing::Test {
  protected:
-  /// Poses of ten steps, a second apart.
+  /// A log with the poses of ten steps, one second apart.
   std::string recorded_log(const std::string& prefix = "") {
     const std::string file = scratch_ / "drive.lcm";
     EventLogWriter log = *EventLogWriter::create(file);
@@ -62,7 +62,7 @@ TEST_F(ExportCommand, WritesWhatADaemonPublishedInEveryFormat) {
   std::vector<std::string> words{"export", recorded_log()};
   for (const char* name : {"a.tum", "a.kitti", "kitti_times:times.txt", "a.csv", "a.geojson", "a.bag", "a.mcap"}) {
     const std::string text = name;
-    const std::size_t colon = text.find(':') + 1;  // 0: there is none
+    const std::size_t colon = text.find(':') + 1;  // 0: the word has no colon
     words.push_back(text.substr(0, colon) + (scratch_ / text.substr(colon)));
   }
   const Outcome outcome = azimuth(words);
@@ -143,7 +143,7 @@ TEST_F(ExportCommand, OfAReplayIsTheTrajectoryOfTheReplay) {
 TEST_F(ExportCommand, OfARefinedRunIsTheRefinedTrajectory) {
   const std::string tum = scratch_ / "a.tum", csv = scratch_ / "a.csv", then = scratch_ / "then.csv";
   ASSERT_EQ(azimuth({"replay", one_lap(), "--quiet", "--export", then}).code, 0);
-  const Outcome outcome = azimuth({"refine", one_lap(), "--quiet", "--tum", tum, "--export", csv});
+  const Outcome outcome = azimuth({"map", "refine", one_lap(), "--quiet", "--tum", tum, "--export", csv});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const auto poses = lines_of(tum), rows = lines_of(csv);
   ASSERT_EQ(rows.size(), poses.size() + 1);

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A table of the lap with other names, in milliseconds and millimetres, between blanks.
+/// The odometry of the lap with other column names, in milliseconds and millimetres, separated by blanks.
 std::string foreign_odometry_of_the_lap() {
   std::istringstream lap(file_bytes(one_lap() + "/odometry.csv"));
   std::string line, table = "# wheel odometry\n# stamp px py yaw\n";
@@ -111,7 +111,7 @@ TEST(ImportCommand, BringsImagesAndSaysWhatComesNext) {
   EXPECT_EQ(file_bytes(out + "/frames/000001.jpg"), "\xff\xd8\xff\xe0 two");
   EXPECT_FALSE(fs::exists(out + "/rig.toml"));
   EXPECT_NE(imported.out.find("azimuth calibrate " + out), std::string::npos) << imported.out;
-  // What was calibrated there since stays when the tables are imported anew.
+  // A second import keeps the rig.toml that a calibration has written in the meantime.
   fs::copy_file(one_lap() + "/rig.toml", out + "/rig.toml");
   ASSERT_EQ(azimuth({"import", odometry, out, "--images", scratch / "images", "--stamps", "name[ms]", "--force"}).code,
             0);
@@ -154,7 +154,6 @@ TEST(ImportCommand, RefusesARigWithMistakesBeforeItWrites) {
 TEST(ImportCommand, SaysWhatReadsWhatItDoesNot) {
   const ScratchFolder scratch;
   for (const auto& [begin, answer] : std::vector<std::pair<std::string, std::string>>{
-           {"\xED\xA1\xDA\x01", "is an LCM log: azimuth replay reads it"},
            {"\x1F\x8B\x08", "is compressed by gzip: gunzip it first"},
            {"\x28\xB5\x2F\xFD", "is compressed by zstd: unzstd it first"},
            {"version https://git-lfs.github.com/spec/v1\n", "git lfs pull"}}) {

@@ -1,4 +1,4 @@
-// azimuth map merge: what it says, writes and refuses.
+// Runs `azimuth map merge`: its output, the map that it writes and the maps that it refuses.
 
 #include <filesystem>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 class MapMergeCommand : public testing::Test {
  protected:
-  /// Of the hall from one x to another.
+  /// Writes a map of the part of the hall between `from_m` and `to_m` (x), and returns its path.
   std::string map(const std::string& name, double from_m, double to_m, const Pose2& T_world_map) {
     return write(name, drawn_map(between(hall_, from_m, to_m), T_world_map, draws_).map);
   }
@@ -25,7 +25,7 @@ class MapMergeCommand : public testing::Test {
   std::string west() { return map("west.azmap", 0.0, 37.0, {10.0, 5.0, 0.7}); }
   std::string east() { return map("east.azmap", 23.0, 60.0, {40.0, 9.0, -2.4}); }
 
-  /// Ends with exit code 2, says this on one line, and writes nothing.
+  /// Expects that the command ends with exit code 2, gives the reason `why` on one line and writes no file.
   void expect_refused(const std::vector<std::string>& maps, const std::string& why) {
     std::vector<std::string> arguments{"map", "merge", "-o", out_};
     arguments.insert(arguments.end(), maps.begin(), maps.end());

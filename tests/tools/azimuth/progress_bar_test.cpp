@@ -15,7 +15,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Standard error is a terminal, or a pipe, as long as this lives.
+/// Replaces standard error by a terminal or a pipe during the life of the object.
 class StandardError {
  public:
   explicit StandardError(bool terminal) : before_(::dup(STDERR_FILENO)) {

@@ -1,4 +1,4 @@
-// azimuth replay on what a daemon recorded: its own configuration, its own poses, truth from elsewhere.
+// Runs `azimuth replay` on a session that a daemon recorded, which holds the configuration and the poses, but no truth.
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -18,9 +18,9 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Differs from the default, so that whoever uses the default gives other poses.
+/// Differs from the default, so that a replay with the default settings gives other poses.
 constexpr const char* kConfiguration =
-    "estimator = \"ekf\"\n[ekf]\ngate_chi2 = 5.0\n[daemon.lcm]\nchannel_prefix = \"R1_\"\n";
+    "estimator = \"ekf\"\n[ekf]\nthinning_s = 1.0\n[daemon.lcm]\nchannel_prefix = \"R1_\"\n";
 
 class SegmentWriter {
  public:
@@ -67,7 +67,7 @@ class RecordedSession : public testing::Test {
     poses_ = replay(run_, rig, make_ekf_estimator(rig, configuration.ekf), configuration.stage).estimates;
   }
 
-  /// The session as a daemon records it, without truth: two segments, poses amid samples.
+  /// Writes the session as a daemon records it: two segments, poses between the samples, no truth.
   std::string record(const std::string& prefix = "") {
     const std::string session = scratch_ / "session";
     std::filesystem::create_directory(session);
@@ -81,7 +81,7 @@ class RecordedSession : public testing::Test {
         segment.write(channel::kBearings, to_message(run_.bearings[set]));
       for (std::size_t i = 0; number == 1 && i < poses_.size(); ++i)
         segment.write(channel::kPose, message_of(poses_[i], static_cast<std::int64_t>(i) + 1));
-      pose_cov_t predicted{};  // between the steps: not to be compared
+      pose_cov_t predicted{};  // A prediction between the steps, which the comparison must ignore.
       predicted.predicted = 1;
       segment.write(channel::kPose, predicted);
     }
@@ -108,7 +108,7 @@ TEST_F(RecordedSession, OtherSettingsGiveOtherPoses) {
   const std::string session = record(), empty = scratch_ / "empty.toml";
   write_file(empty, "");
   for (const std::vector<std::string>& other :
-       {std::vector<std::string>{"--config", empty}, {"--set", "ekf.gate_chi2=2"}}) {
+       {std::vector<std::string>{"--config", empty}, {"--set", "ekf.thinning_s=0.2"}}) {
     std::vector<std::string> arguments{"replay", session, "--verify", "--quiet"};
     arguments.insert(arguments.end(), other.begin(), other.end());
     const Outcome outcome = azimuth(arguments);

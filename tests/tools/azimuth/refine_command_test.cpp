@@ -1,4 +1,4 @@
-// azimuth refine: everything at once, whatever the recording's estimator was.
+// Runs `azimuth map refine`, which smooths the whole run at once, independently of the configured estimator.
 
 #include <filesystem>
 #include <gmock/gmock.h>
@@ -34,8 +34,8 @@ class RefineCommand : public testing::Test {
 TEST_F(RefineCommand, WritesTrajectoryMapReportAndPicture) {
   const std::string report = scratch_ / "report.json", plot = scratch_ / "map.svg", tum = scratch_ / "lab.tum",
                     map = scratch_ / "lab.azmap";
-  const Outcome outcome =
-      azimuth({"refine", test::shipped_run().string(), "--report", report, "--plot", plot, "--tum", tum, "--map", map});
+  const Outcome outcome = azimuth(
+      {"map", "refine", test::shipped_run().string(), "--report", report, "--plot", plot, "--tum", tum, "--map", map});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
   EXPECT_THAT(outcome.out,
@@ -59,16 +59,16 @@ TEST_F(RefineCommand, WritesTrajectoryMapReportAndPicture) {
 
 TEST_F(RefineCommand, TheTrajectoryThatIsWrittenIsTheRefinedOne) {
   const std::string tum = scratch_ / "lab.tum", online = scratch_ / "online.tum";
-  ASSERT_EQ(azimuth({"refine", test::one_lap(), "--tum", tum, "--quiet"}).code, 0);
+  ASSERT_EQ(azimuth({"map", "refine", test::one_lap(), "--tum", tum, "--quiet"}).code, 0);
   ASSERT_EQ(azimuth({"replay", test::one_lap(), "--set", "estimator=smoother", "--tum", online, "--quiet"}).code, 0);
   EXPECT_NE(file_bytes(tum), file_bytes(online));
-  const Outcome judged = azimuth({"evaluate", tum, test::one_lap()});
+  const Outcome judged = azimuth({"report", "trajectory", tum, test::one_lap()});
   EXPECT_EQ(judged.code, 0) << judged.err;
 }
 
 TEST_F(RefineCommand, AFilterStartsFromTheRefinedMap) {
   const std::string map = scratch_ / "lab.azmap";
-  ASSERT_EQ(azimuth({"refine", test::one_lap(), "--map", map, "--quiet"}).code, 0);
+  ASSERT_EQ(azimuth({"map", "refine", test::one_lap(), "--map", map, "--quiet"}).code, 0);
   const Outcome again = azimuth({"replay", test::one_lap(), "--map", map, "--localise"});
   EXPECT_EQ(again.code, 0) << again.err;
   EXPECT_THAT(again.out, HasSubstr("tracking at the end"));
@@ -86,7 +86,7 @@ TEST_F(RefineCommand, AnotherEstimatorInTheConfigurationChangesNothing) {
 TEST_F(RefineCommand, LandmarksThatAreAllAlikeArePathAndMapsToDecide) {
   const std::string run = scratch_ / "run";
   ASSERT_EQ(azimuth({"simulate", run, "--world", "lab", "--laps", "1"}).code, 0);
-  const Outcome outcome = azimuth({"refine", run, "--no-names", "--set", "smoother.members=2"});
+  const Outcome outcome = azimuth({"map", "refine", run, "--no-names", "--set", "smoother.members=2"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("is what explains all of them best"));
 }
@@ -94,14 +94,14 @@ TEST_F(RefineCommand, LandmarksThatAreAllAlikeArePathAndMapsToDecide) {
 TEST_F(RefineCommand, LandmarksThatHaveLooksAreTheFiltersToDecide) {
   const std::string run = scratch_ / "run", map = scratch_ / "run.azmap";
   ASSERT_EQ(azimuth({"simulate", run, "--world", "coloured-lab"}).code, 0);
-  const Outcome outcome = azimuth({"refine", run, "--map", map});
+  const Outcome outcome = azimuth({"map", "refine", run, "--map", map});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("refined     everything at once; which bearing is of which landmark"));
   EXPECT_TRUE(std::filesystem::exists(map));
 }
 
 TEST_F(RefineCommand, FilesThatCannotBeWrittenAreFoundBeforeTheRun) {
-  const Outcome outcome = azimuth({"refine", test::one_lap(), "--map", scratch_ / "none" + "/lab.azmap"});
+  const Outcome outcome = azimuth({"map", "refine", test::one_lap(), "--map", scratch_ / "none" + "/lab.azmap"});
   EXPECT_EQ(outcome.code, 1);
   EXPECT_EQ(outcome.out, "");
 }

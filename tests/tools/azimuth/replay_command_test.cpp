@@ -17,7 +17,7 @@ using Json = nlohmann::json;
 
 class ReplayCommand : public testing::Test {
  protected:
-  /// A small run of its own to spoil.
+  /// A small run that the test may modify.
   std::string small_run() {
     const std::string run = scratch_ / "run";
     EXPECT_EQ(azimuth({"simulate", run, "--world", "coloured-lab"}).code, 0);
@@ -60,7 +60,7 @@ TEST_F(ReplayCommand, WritesReportPictureAndTrajectory) {
   EXPECT_EQ(count, json["steps"]);
 }
 
-/// Of two pictures the share of pixels that are not alike; 1 where their sizes differ or one is none.
+/// The share of pixels in which two PNG files differ; 1 if their sizes differ or a file cannot be read.
 double unlike(const std::string& one, const std::string& other) {
   const auto read = [](const std::string& file) {
     return std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>(
@@ -83,8 +83,8 @@ double unlike(const std::string& one, const std::string& other) {
   return double(found) / (double(width) * double(height));
 }
 
-/// Fonts and the last digits of an estimate may differ from machine to machine; another run, or another estimator, is
-/// another picture.
+/// Fonts and the last digits of an estimate may differ from machine to machine. Another estimator must draw a picture
+/// that differs more.
 TEST_F(ReplayCommand, DrawsTheMapThatTheReadmeShows) {
   const std::string shown = test::source_folder() / "docs/map.png", plot = scratch_ / "map.png",
                     other = scratch_ / "other.png";
@@ -140,26 +140,28 @@ TEST_F(ReplayCommand, QuietPrintsNothing) {
 }
 
 TEST_F(ReplayCommand, HintsAtACheckWhereBearingsWithNamesAreRefused) {
-  // GIVEN a run that mostly is tracked, and a rig by which azimuths grow the other way
+  // GIVEN a run with health "tracking" most of the time, and a rig that has the direction of the azimuths wrong
   const std::string flipped = scratch_ / "flipped.toml";
   std::string rig = file_bytes(test::shipped_run() / "rig.toml");
   const std::string key = "identities = true\n";
   ASSERT_NE(rig.find(key), std::string::npos);
   rig.insert(rig.find(key), "azimuths_clockwise = true\n");
   write_file(flipped, rig);
-  // THEN the summary says what to do, and says nothing of it with the rig that is right
+  // THEN the summary gives a hint, and it gives none with the right rig
   const Outcome wrong =
       azimuth({"replay", test::shipped_run().string(), "--rig", flipped, "--set", "smoother.doubt_rig=false"});
-  EXPECT_NE(wrong.out.find("% of the bearings were refused although they name their landmarks: `azimuth check " +
-                           test::shipped_run().string() + "`"),
-            std::string::npos)
+  EXPECT_NE(
+      wrong.out.find("% of the bearings were refused although they name their landmarks\nnext        `azimuth check " +
+                     test::shipped_run().string() + "`"),
+      std::string::npos)
       << wrong.out;
-  // AND one that doubts its rig gives up on it, and does not call that tracking
+  // AND with smoother.doubt_rig the smoother rejects the rig and reports little tracking
   const Outcome doubted = azimuth({"replay", test::shipped_run().string(), "--rig", flipped});
-  EXPECT_NE(doubted.out.find("hint        less than half of it was tracked: `azimuth check "), std::string::npos)
+  EXPECT_NE(doubted.out.find("verdict     less than half of it was tracked\nnext        `azimuth check "),
+            std::string::npos)
       << doubted.out;
   const Outcome right = azimuth({"replay", test::shipped_run().string()});
-  EXPECT_EQ(right.out.find("\nhint "), std::string::npos) << right.out;
+  EXPECT_NE(right.out.find("\nnext        `azimuth map refine "), std::string::npos) << right.out;
 }
 
 TEST_F(ReplayCommand, GivesTheSameDigestEveryTime) {
@@ -172,11 +174,11 @@ TEST_F(ReplayCommand, SettingsReachTheEstimator) {
   const std::string run = small_run(), configuration = scratch_ / "azimuth.toml";
   const std::string recommended = digest_of(run, {"--set", "estimator=ekf"});
   EXPECT_NE(digest_of(run), recommended);
-  const std::string gated = digest_of(run, {"--set", "estimator=ekf", "--set", "ekf.gate_chi2=1.0"});
+  const std::string gated = digest_of(run, {"--set", "estimator=ekf", "--set", "ekf.thinning_s=1.5"});
   EXPECT_NE(gated, recommended);
-  write_file(configuration, "estimator = \"ekf\"\n[ekf]\ngate_chi2 = 1.0\n");
+  write_file(configuration, "estimator = \"ekf\"\n[ekf]\nthinning_s = 1.5\n");
   EXPECT_EQ(digest_of(run, {"--config", configuration}), gated);
-  EXPECT_EQ(digest_of(run, {"--config", configuration, "--set", "ekf.gate_chi2=9.0"}), recommended);
+  EXPECT_EQ(digest_of(run, {"--config", configuration, "--set", "ekf.thinning_s=0.5"}), recommended);
 }
 
 TEST_F(ReplayCommand, NamesTheLineOfBadData) {
@@ -193,9 +195,9 @@ TEST_F(ReplayCommand, NamesTheLineOfABadRig) {
 
 TEST_F(ReplayCommand, NamesTheLineOfABadConfiguration) {
   const std::string configuration = scratch_ / "azimuth.toml";
-  write_file(configuration, "[ekf]\ngate_chi = 9.0\nkl_samples = -4\n");
+  write_file(configuration, "[ekf]\nthining_s = 9.0\nmax_landmarks = -4\n");
   expect_refused({"replay", test::one_lap(), "--config", configuration},
-                 {"azimuth.toml:2:", "gate_chi2", "azimuth.toml:3:"});
+                 {"azimuth.toml:2:", "thinning_s", "azimuth.toml:3:"});
 }
 
 TEST_F(ReplayCommand, RefusesABadOverride) {

@@ -69,7 +69,7 @@ TEST(SimulateCommand, RefusesImagesInALogAndSizesWithoutACamera) {
   EXPECT_EQ(azimuth({"simulate", scratch / "run", "--camera", "pinhole"}).code, 2);
 }
 
-/// One that ships, and how far off its positions may be.
+/// A shipped run and the largest RMSE that its positions may have.
 struct ShippedMap {
   std::string run;
   double most_m;

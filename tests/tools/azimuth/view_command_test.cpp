@@ -1,4 +1,5 @@
-// azimuth view on recordings, asked as a browser asks; on a running daemon: tests/live/view_test.cpp.
+// Runs `azimuth view` on recordings and sends the requests of a browser. tests/live/view_test.cpp tests the command on
+// a running daemon.
 
 #include <csignal>
 #include <filesystem>
@@ -21,7 +22,7 @@ using namespace std::chrono_literals;
 using Json = nlohmann::json;
 using testing::HasSubstr;
 
-/// The command, until it is destroyed.
+/// Runs the command during the life of the object.
 class Viewed {
  public:
   explicit Viewed(std::vector<std::string> arguments) {
@@ -53,7 +54,7 @@ class Viewed {
   std::uint16_t port_ = 0;
 };
 
-/// What a page that was written carries.
+/// The data that a written page contains.
 Json data_of_page(const std::string& file) {
   const std::string page = file_bytes(file), begin = R"(<script type="application/json" id="data">)";
   const std::size_t at = page.find(begin) + begin.size();
@@ -68,7 +69,7 @@ TEST(ViewCommand, ShowsARunAsThePageOfAReplayDoes) {
   Viewed viewed({one_lap(), "--quiet"});
   Json shown = viewed.run();
   for (Json* const each : {&written, &shown}) {
-    (*each)["runs"][0]["series"].erase("step_us");  // no two are alike
+    (*each)["runs"][0]["series"].erase("step_us");  // differs between replays
     (*each)["runs"][0].erase("metrics");
   }
   EXPECT_EQ(shown, written);
@@ -101,12 +102,12 @@ TEST(ViewCommand, ShowsARunThatEndsLost) {
 TEST(ViewCommand, ALogThatWasCutOffSaysSo) {
   const ScratchFolder scratch;
   const std::string whole = scratch / "whole.lcm";
-  ASSERT_EQ(azimuth({"convert", one_lap(), whole}).code, 0);
+  ASSERT_EQ(azimuth({"import", one_lap(), whole}).code, 0);
   const std::string bytes = file_bytes(whole);
   EXPECT_EQ(Viewed({whole, "--quiet"}).run()["runs"][0]["unread"], "");
   for (const double part : {0.4, 0.9}) {
     const std::string cut = scratch / "cut.lcm";
-    // Within an event, as nearly every byte is.
+    // Nearly every byte lies within an event, so this cut does too.
     write_file(cut, bytes.substr(0, static_cast<std::size_t>(part * static_cast<double>(bytes.size()))));
     const Viewed viewed({cut, "--quiet"});
     const Json run = viewed.run()["runs"][0];

@@ -40,7 +40,7 @@ using Seen = SeenInBag;
 
 Seen visit(const std::string& bag) { return seen_in(bag, visit_bag); }
 
-/// Ten messages of different length, and where each ends.
+/// Ten messages of different lengths; `ends` receives the offset at which each one ends.
 std::string ten_messages(std::vector<std::size_t>* ends = nullptr) {
   std::string records = connection(3, "/a");
   for (std::size_t i = 0; i < 10; ++i) {
@@ -66,7 +66,7 @@ std::string lz4(const std::string& text) {
   return packed;
 }
 
-/// A chunk of zeros.
+/// A chunk of zeros, which unpacks to far more bytes than it takes.
 std::string bomb(std::size_t unpacked) {
   const std::string zeros(unpacked, '\0');
   return chunk("bz2", bz2(zeros), unpacked);
@@ -95,7 +95,7 @@ TEST(BagRecords, StillImagesThatPackWellAreNoBomb) {
   EXPECT_EQ(seen.messages.size(), 3u);
 }
 
-/// Each begins within the one before: together they would be read as often as there are.
+/// Each chunk begins within the one before it, so a naive reader would read the rest of the file once per chunk.
 TEST(BagRecords, ChunksWithinChunksCostNoMoreThanOneBudget) {
   std::string begins;
   const std::string begin = record(5, field("compression", "bz2") + field("size", u32(1)), "");

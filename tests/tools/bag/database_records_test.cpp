@@ -80,7 +80,7 @@ TEST(DatabaseRecords, OfOtherDatabasesThereAreNone) {
   EXPECT_NE(seen.damage.database, "");
 }
 
-/// A column may be computed, of bytes that do not lie in the file.
+/// SQLite can compute a column, so a message may have more bytes than the file holds.
 TEST(DatabaseRecords, GiveNoMoreBytesThanTheFileHas) {
   const TemporaryFolder folder;
   {
@@ -107,7 +107,7 @@ TEST(DatabaseRecords, OfDamagedBytesAreTheSameEachTimeAndEnd) {
     for (int i = 0; i < 200; ++i) bag.message(1, i, std::string(static_cast<std::size_t>(10 * i), 'x'));
   }
   const std::string good = bytes_of(folder / "good.db3");
-  std::mt19937_64 random(1);  // NOLINT(cert-msc51-cpp): the same every time
+  std::mt19937_64 random(1);  // NOLINT(cert-msc51-cpp): a fixed seed repeats the test
   int damaged = 0, whole = 0;
   for (int i = 0; i < 300; ++i) {
     std::string bad = good;

@@ -20,7 +20,7 @@ SeenInBag visited(const std::string& file) { return seen_in(file, visit_mcap); }
 
 const std::string kTopic = mcap_schema(1, kWords) + mcap_channel(7, 1, "/a");
 
-/// Ten messages of different length, and where each ends.
+/// Ten messages of different lengths; `ends` receives the offset at which each one ends.
 std::string ten_in_mcap(std::vector<std::size_t>* ends = nullptr) {
   std::string records = kTopic;
   for (int i = 0; i < 10; ++i) {
@@ -54,13 +54,13 @@ TEST(McapRecords, ABombIsLeftAloneAndSaidToBeOne) {
   }
 }
 
-/// A schema's record up to its definition, which has `after` bytes.
+/// The beginning of a schema's record, up to its definition, whose length is given as `after` bytes.
 std::string schema_begin(std::size_t after) {
   const std::string before = mcap_u16(1) + mcap_text("a/B") + mcap_text("ros2msg");
   return '\3' + mcap_u64(before.size() + 4 + after) + before + mcap_u32(static_cast<std::uint32_t>(after));
 }
 
-/// In a damaged file each byte may begin a record; here 16,000 times one does that holds all that follows.
+/// In a damaged file each byte may begin a record. Here 16,000 schemas begin; each one contains the rest of the file.
 TEST(McapRecords, SchemasWithinSchemasAreNoWork) {
   constexpr std::size_t kSchemas = 16'000, kRest = 1'000'000;
   std::string schemas;
@@ -72,16 +72,18 @@ TEST(McapRecords, SchemasWithinSchemasAreNoWork) {
   EXPECT_GT(seen.damage.bytes, 1'000'000u);
 }
 
-/// A channel's record up to what is said of it, which has `after` bytes and begins with a key.
+/// The beginning of a channel's record, up to its metadata, which has `after` bytes and begins with a key of `key`
+/// bytes.
 std::string channel_begin(std::size_t after, std::size_t key) {
   const std::string before = mcap_u16(1) + mcap_u16(1) + mcap_text("/a") + mcap_text("cdr");
   return '\4' + mcap_u64(before.size() + 4 + after) + before + mcap_u32(static_cast<std::uint32_t>(after)) +
          mcap_u32(static_cast<std::uint32_t>(key));
 }
 
-/// Likewise; and all that is said of each must be gone through to see that it is none.
+/// Here 4000 channels begin, each of which contains the rest of the file. The reader must go through the whole metadata
+/// of a channel to see that it is malformed.
 TEST(McapRecords, ChannelsWithinChannelsAreNoWork) {
-  constexpr std::size_t kRest = 4'000'000;  // of empty texts
+  constexpr std::size_t kRest = 4'000'000;  // metadata of empty texts
   const std::size_t begin = channel_begin(0, 0).size();
   std::string channels;
   for (std::size_t i = 4000; i-- > 0;) channels += channel_begin(4 + i * begin + kRest - 1, i == 0 ? 0 : begin - 4);
@@ -91,7 +93,7 @@ TEST(McapRecords, ChannelsWithinChannelsAreNoWork) {
   EXPECT_LT(cpu_time_s() - begin_s, 2.0);
 }
 
-/// What a few kilobytes unpack to is searched for records byte by byte, which is more work than to unpack it.
+/// A chunk of a few kilobytes unpacks to 20 MB. The search for records in them costs more than the unpacking.
 TEST(McapRecords, SearchingAPackIsWorkToo) {
   const std::string nothing(20'000'000, '\1');
   const SeenInBag seen = visited(kMcapBegin + mcap_chunk(nothing, "zstd", zstd_of(nothing)) + ten_in_mcap());
@@ -102,7 +104,7 @@ TEST(McapRecords, ASchemaIsThereOnceForAllChannels) {
   std::string file = kMcapBegin + mcap_schema(1, {"a/B", std::string(200'000, '#') + "\n"});
   for (int i = 0; i < 5000; ++i) file += mcap_channel(static_cast<std::uint16_t>(i), 1, "/a");
   const SeenInBag seen = visited(file);
-  ASSERT_EQ(seen.connections.size(), 5000u);  // a GB, if each had a copy
+  ASSERT_EQ(seen.connections.size(), 5000u);  // a copy of the schema in each connection would take 1 GB
   EXPECT_EQ(std::string_view(seen.connections[0].definition).data(),
             std::string_view(seen.connections[4999].definition).data());
   EXPECT_LT(seen.connections[0].checksum.size(), 100u);
@@ -142,7 +144,7 @@ TEST(McapRecords, ThatWereWholeBeforeACutAreRead) {
 
 TEST(McapRecords, OfAPackThatIsCutAreThoseBeforeTheCut) {
   std::string records = kTopic;
-  std::string noise;  // that does not pack
+  std::string noise;  // incompressible
   for (unsigned i = 0, x = 1; i < 300'000; ++i) noise += static_cast<char>((x = x * 1664525u + 1013904223u) >> 24U);
   for (std::size_t i = 0; i < 100; ++i) records += mcap_message(7, 1.0, noise.substr(3000 * i, 3000));
   for (const auto& [kind, packed] : {std::pair("lz4", lz4_of(records)), std::pair("zstd", zstd_of(records))}) {

@@ -1,4 +1,4 @@
-// The structure of the file is read by read_mcap.py (foreign_readers_test.cpp); here is what that cannot see.
+// Tests the details of MCAP files that read_mcap.py does not check; foreign_readers_test.cpp runs that reader.
 
 #include "tools/bag/mcap_writer.hpp"
 

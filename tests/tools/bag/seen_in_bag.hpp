@@ -1,5 +1,5 @@
 #pragma once
-// What reading a recording tells, written down.
+// Collects everything that a reader of recordings passes to its visitor.
 
 #include <cstdint>
 #include <string>
@@ -15,7 +15,7 @@ struct SeenInBag {
   BagDamage damage;
 };
 
-/// What `visit(visitor)` shows.
+/// Collects what `visit(visitor)` passes to the visitor.
 template <class Visit>
 SeenInBag seen_by(const Visit& visit) {
   SeenInBag seen;
@@ -29,7 +29,7 @@ SeenInBag seen_by(const Visit& visit) {
   return seen;
 }
 
-/// By visit_bag or visit_mcap.
+/// Collects the content of `file`; `visit` is visit_bag or visit_mcap.
 template <class Visit>
 SeenInBag seen_in(const std::string& file, const Visit& visit) {
   return seen_by(

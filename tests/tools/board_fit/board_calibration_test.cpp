@@ -11,7 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// What would be found in images of the 185 degree lens.
+/// Simulated corners of chessboards in images of the 185 degree lens.
 SeenBoards seen_within(double farthest_rad, std::size_t count, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   const CameraModel camera = test::camera_185();
@@ -71,7 +71,7 @@ TEST(BoardCalibration, BoardsSeenSquarelyDoNotTellHowLongTheLensIs) {
   SeenBoards seen = seen_within(1.45, 0, 4);
   const CameraModel camera = test::camera_185();
   std::mt19937_64 random(4);
-  for (int i = 0; i < 8; ++i) {  // all in planes across the axis, as if they lay on the ceiling
+  for (int i = 0; i < 8; ++i) {  // all boards are perpendicular to the optical axis
     Eigen::Isometry3d pose(Eigen::AngleAxisd(0.7 * i, Eigen::Vector3d::UnitZ()));
     pose.translation() = Eigen::Vector3d(0.35 * std::cos(0.8 * i), 0.35 * std::sin(0.8 * i), 0.3);
     seen.images.emplace_back(std::to_string(i));

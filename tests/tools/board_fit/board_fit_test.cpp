@@ -40,7 +40,7 @@ TEST(BoardFit, EquationsAreThoseOfDifferences) {
   const FitEquations equations = board_equations(test::kChessboard, boards.sightings, at);
   constexpr double kStep = 1e-6;
   for (Eigen::Index k = 0; k < equations.J.cols(); ++k) {
-    if (k == kLensNumbers - 1) continue;  // is held, and stands beside the residuals
+    if (k == kLensNumbers - 1) continue;  // this parameter is held by an equation of its own
     const Eigen::VectorXd off = kStep * Eigen::VectorXd::Unit(equations.J.cols(), k);
     const Eigen::VectorXd slope = (board_equations(test::kChessboard, boards.sightings, board_moved(at, off)).e -
                                    board_equations(test::kChessboard, boards.sightings, board_moved(at, -off)).e) /

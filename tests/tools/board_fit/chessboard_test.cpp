@@ -13,7 +13,8 @@ class FoundChessboards : public testing::Test {
   test::GreyImage image_of(const Eigen::Isometry3d& pose) {
     return test::rendered(camera_, test::kSide_px, test::kChessboard, pose, 2.0, random_);
   }
-  /// Of the corners, whichever end they are counted from; near none: a large number.
+  /// The largest distance from a found corner to the nearest true corner [px]. The end at which the numbering of the
+  /// corners starts does not matter.
   double farthest_off_px(const std::vector<Pixel>& corners, const Eigen::Isometry3d& pose) {
     const std::vector<Pixel> truth = test::corners_of(camera_, test::kChessboard, pose, 0.0, random_);
     double most_px = 0.0;

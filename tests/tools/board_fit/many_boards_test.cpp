@@ -1,4 +1,4 @@
-// Whether errors are what they are said to be, in rendered images.
+// Tests the consistency of the lens calibration: the errors found in rendered images must agree with the covariance.
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace azimuth {
 namespace {
 
-constexpr int kFound = kLensNumbers - 1;  // the turn about the axis is not looked for
+constexpr int kFound = kLensNumbers - 1;  // the rotation about the optical axis is not estimated
 
 SeenBoards rendered_and_seen(std::size_t images, std::uint64_t seed) {
   std::mt19937_64 random(seed);
@@ -65,7 +65,7 @@ TEST(ManyBoards, ErrorsAreWithinTwoStandardDeviations) {
   fmt::print("boards found in {} of {} images, {} of {} numbers within two standard deviations, NEES {:.2f} of 1\n",
              tally.found, tally.images, tally.within, tally.numbers, tally.nees / kLenses);
   EXPECT_GT(tally.found, 0.95 * tally.images);
-  EXPECT_GT(tally.within, 0.88 * tally.numbers);  // 95.4 % expected, of 20 independent lenses
+  EXPECT_GT(tally.within, 0.88 * tally.numbers);  // 95.4 % are expected over 20 independent lenses
   EXPECT_LT(tally.nees / kLenses, 1.6);
   EXPECT_LT(tally.worst_px, 0.3);
 }

@@ -34,7 +34,7 @@ TEST(CompareCentre, AgreesWithinThreePixels) {
 TEST(CompareCentre, KnowsTheWorstBearing) {
   const CentreComparison off = compare_centre(mirror_at(320, 240), rig_at(330, 240));
   EXPECT_DOUBLE_EQ(off.off_px, 10.0);
-  // Bearings of a ring at half of the rim, read with the wrong centre.
+  // The worst error of bearings on a ring at half the radius of the rim, read with the wrong centre.
   const ImageAxes right{{320, 240}}, wrong{{330, 240}};
   double worst_rad = 0.0;
   for (int i = 0; i < 3600; ++i) {

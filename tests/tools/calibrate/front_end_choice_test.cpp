@@ -34,7 +34,8 @@ class MirrorDrive : public testing::Test {
  protected:
   MirrorDrive() : run_(*load_run(test::source_folder() / "runs/mirror")), images_(run_) {}
 
-  /// Of the first images, decoded so.
+  /// Tries the front ends on the first eight images in the format `decoded`. Each one is paired with the image that is
+  /// `later_by` frames later.
   FrontEndsSeenAgain seen(PixelFormat decoded, std::size_t later_by) {
     FrontEndTrial trial(read_rig(run_.rig_toml, run_.rig_file)->camera);
     for (std::size_t i = 0; i < 8; ++i) {

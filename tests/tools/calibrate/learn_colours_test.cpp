@@ -12,7 +12,7 @@ using testing::HasSubstr;
 
 const FrameFormat kColourFormat = packed_format(PixelFormat::rgb8, 100, 80);
 
-/// A patch of one colour, with the shade and the noise that paint has.
+/// A patch of one colour with shading and noise, as painted surfaces have in images.
 std::vector<Rgb> patch(Rgb colour, double darkest, unsigned seed) {
   test::Canvas canvas(20, 20, colour);
   for (int v = 0; v < 20; ++v)

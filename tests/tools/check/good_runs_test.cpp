@@ -1,4 +1,4 @@
-// Of what is right nothing is said to be wrong.
+// Tests that `azimuth check` reports no mistake for runs that are right.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace azimuth {
 namespace {
 
-/// What is said to be wrong; empty: nothing.
+/// The sentences of the verdicts that call something wrong; empty if there are none.
 std::string wrongs_of(const Run& run, const Drive& drive) {
   const Rig rig = test::rig_of_run(run);
   if (!why_cannot_tell(drive, rig).empty()) return "";
@@ -27,7 +27,7 @@ std::string wrongs_of(const Run& run, const Drive& drive) {
 
 std::string wrongs_of(const Run& run) { return wrongs_of(run, test::drive_of(run, test::rig_of_run(run))); }
 
-/// Where no more than kinds are told.
+/// The same for bearings with kinds but without identities.
 std::string wrongs_by_kind(const Run& run) { return wrongs_of(run, test::seen_by_kind(run, test::rig_of_run(run))); }
 
 TEST(CheckGood, OneLapIsFine) { EXPECT_EQ(wrongs_of(simulated_run(lab(51, 1))), ""); }

@@ -1,4 +1,4 @@
-// Mistakes made on purpose, each in a run that is good without.
+// Tests that `azimuth check` names a mistake that is put into a good run.
 
 #include <fmt/format.h>
 #include <functional>
@@ -31,7 +31,7 @@ TEST_P(CheckOneLap, NamesTheMistakeAndWhatWouldFit) {
   const auto run = GetParam().spoilt(good);
   const Plausibility found = judged(run);
   EXPECT_TRUE(test::names_it(found, GetParam())) << test::said(found);
-  // THEN with what it says nothing is wrong any more, but for a centre, about which bearings were made before
+  // THEN the proposed rig has no mistake any more. The centre is exempt: the bearings were made with the wrong one.
   if (GetParam().mistake == Mistake::centre) return;
   const Plausibility again = judge(test::drive_of(run, found.rig), run, found.rig, {});
   EXPECT_FALSE(again.anything_wrong()) << test::said(again);
@@ -122,7 +122,7 @@ TEST(Check, TwoMistakesAreNamedOneAfterTheOther) {
 
 using NamedRuns = std::vector<std::pair<std::string, Run>>;
 
-/// Good runs to spoil, of every sort that has names.
+/// Good runs of every sort that has identities.
 NamedRuns good_runs() {
   NamedRuns runs;
   for (const char* name : {"mrclam6-robot2", "mrclam6-robot3", "lab-runs/lab-003"})
@@ -132,13 +132,13 @@ NamedRuns good_runs() {
   return runs;
 }
 
-/// Its first six legs: fits of a drive are the slower the longer it is, by more than its length.
+/// The first six legs of the path. The time of a fit grows faster than the length of the drive.
 Scenario half_of(Scenario scattered) {
   scattered.path.resize(scattered.path.size() / 2 + 1);
   return scattered;
 }
 
-/// As a camera makes them: many images to a metre, all of which look all round.
+/// Good runs like those of a camera: many images per metre, each with a field of view of 360 degrees.
 NamedRuns good_runs_of_images() {
   NamedRuns runs;
   for (const std::uint64_t seed : {44, 45, 46})

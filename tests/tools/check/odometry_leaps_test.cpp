@@ -1,4 +1,4 @@
-// Steps that no wheel makes, and some that look like it.
+// Tests the search for leaps in the odometry, and for steps that resemble leaps but are none.
 
 #include "tools/check/odometry_leaps.hpp"
 
@@ -15,7 +15,7 @@ OdometryReading reading(double t_s, double x_m, double y_m = 0.0) {
   return {.stamp = Stamp{duration_from_seconds(t_s)}, .T_odom_body = {x_m, y_m, 0.0}};
 }
 
-/// At 0.3 m/s, ten times a second.
+/// Readings of a straight drive at 0.3 m/s, ten per second.
 Readings straight(int count) {
   Readings readings;
   for (int i = 0; i < count; ++i) readings.push_back(reading(0.1 * i, 0.03 * i));
@@ -25,7 +25,7 @@ Readings straight(int count) {
 TEST(OdometryLeaps, AreNoneInADrive) { EXPECT_FALSE(odometry_leaps(straight(200)).is_any()); }
 
 TEST(OdometryLeaps, AreWhereCountsWrap) {
-  // GIVEN wheels of 0.1 m radius whose angle goes from -pi to pi
+  // GIVEN wheels of 0.1 m radius whose angle wraps to [-pi, pi]
   Readings readings = straight(190);
   for (OdometryReading& each : readings)
     each.T_odom_body.x_m = 0.1 * std::remainder(each.T_odom_body.x_m / 0.1, 2 * kPi);
@@ -36,7 +36,7 @@ TEST(OdometryLeaps, AreWhereCountsWrap) {
 }
 
 TEST(OdometryLeaps, AreUndoneWhereTwoSend) {
-  for (const int every : {1, 2, 5}) {  // of one of them
+  for (const int every : {1, 2, 5}) {  // the second sender sends one reading per `every` readings of the first
     Readings both;
     for (int i = 0; i < 200; ++i) {
       both.push_back(reading(0.1 * i, 0.03 * i));
@@ -62,7 +62,7 @@ TEST(OdometryLeaps, AreNotSprintsNorStopsNorGapsNorStampsThatJitter) {
   Readings sprint;
   double x_m = 0.0;
   for (int i = 0; i < 300; ++i) {
-    x_m += i < 200 ? 0.005 : (i < 230 ? 0.1 : 0.0);  // creeps, runs at 1 m/s, stands
+    x_m += i < 200 ? 0.005 : (i < 230 ? 0.1 : 0.0);  // creeps, drives at 1 m/s, stops
     sprint.push_back(reading(0.1 * i, x_m));
   }
   EXPECT_FALSE(odometry_leaps(sprint).is_any());
@@ -76,7 +76,7 @@ TEST(OdometryLeaps, AreNotSprintsNorStopsNorGapsNorStampsThatJitter) {
 
 TEST(OdometryLeaps, AreNotTheStepsOfARobotThatReportsOnceASecond) {
   Readings slow;
-  for (int i = 0; i < 40; ++i) slow.push_back(reading(i, i < 20 ? i : i + 5.0));  // one of 6 m
+  for (int i = 0; i < 40; ++i) slow.push_back(reading(i, i < 20 ? i : i + 5.0));  // one step of 6 m
   EXPECT_FALSE(odometry_leaps(slow).is_any());
 }
 

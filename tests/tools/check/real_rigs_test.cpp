@@ -1,4 +1,4 @@
-// Real robots whose rig, as a newcomer wrote it, is not quite true. What is measured beside them says how it is.
+// Tests `azimuth check` on real robots whose rigs contain mistakes that other measurements confirm.
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -9,7 +9,7 @@
 namespace azimuth::test {
 namespace {
 
-/// So much that half a second has come together at the end.
+/// The clock drifts by half a second over the whole drive.
 Run with_drifting_clock(Run run) {
   const double drive_s = to_seconds(run.odometry.back().stamp - run.odometry.front().stamp);
   return test::with_late_odometry(std::move(run), 0.0, 0.5 / drive_s);
@@ -66,7 +66,6 @@ std::string said(const Plausibility& found) {
   return text;
 }
 
-/// That mistake with its key, and no other one.
 bool names_it(const Plausibility& found, const Spoiling& spoiling) {
   for (const MistakeVerdict& verdict : found.verdicts) {
     const bool is_it = verdict.mistake == spoiling.mistake;

@@ -1,5 +1,5 @@
 #pragma once
-// Mistakes made on purpose.
+// Mistakes that the tests of `azimuth check` put into good runs.
 
 #include <functional>
 #include <limits>
@@ -15,21 +15,21 @@ namespace azimuth::test {
 struct Spoiling {
   const char* name;
   Mistake mistake;
-  const char* key;  ///< that is named, or words in its place
+  const char* key;  ///< Text that the sentence of the verdict must contain: the key of the rig, or other words.
   std::function<Run(Run)> spoilt;
-  double by_rad = std::numeric_limits<double>::infinity();  ///< of the heading alone
+  double by_rad = std::numeric_limits<double>::infinity();  ///< Heading error; infinity for other mistakes.
 };
 inline std::ostream& operator<<(std::ostream& out, const Spoiling& spoiling) { return out << spoiling.name; }
 
-/// Of every sort, and large.
+/// Large mistakes, one of every sort.
 const std::vector<Spoiling>& spoilings();
-/// That were missed once: small ones, those that bearings behind the robot explain, those of the recording.
+/// Mistakes that are hard to find: small ones, a camera that looks backwards, and faults of the recording.
 const std::vector<Spoiling>& further_spoilings();
 
 std::string said(const Plausibility& found);
-/// That mistake with its key, and no other one.
+/// The verdicts call this mistake wrong, with its key, and no other one.
 bool names_it(const Plausibility& found, const Spoiling& spoiling);
-/// Another mistake than that is called wrong.
+/// The verdicts call another mistake wrong.
 bool names_another(const Plausibility& found, const Spoiling& spoiling);
 
 }  // namespace azimuth::test

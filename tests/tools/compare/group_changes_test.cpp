@@ -12,7 +12,7 @@ using test::made_report;
 const CompareSettings kAsShipped = default_compare_settings();
 constexpr double kBefore_m = 0.1;
 
-/// Runs of which each has grown by its factor; even ones have a tag.
+/// Compares runs whose error has grown by the given factors. Runs with an even index have the tag "even".
 Comparison grown(const std::vector<double>& factors) {
   Reports now, then;
   for (std::size_t i = 0; i < factors.size(); ++i) {
@@ -34,7 +34,7 @@ TEST(Groups, AreAllRunsAndThoseOfEachTag) {
   EXPECT_EQ(comparison.groups[1].means[0].change.mean, 0.0);
 }
 
-/// Twice as bad and half as bad are as much as nothing.
+/// An error that doubles and one that halves average to no change.
 TEST(Groups, AverageRatiosByTheirLogarithms) {
   const ComparedGroup::Mean mean = grown({2.0, 0.5}).groups[0].means[0];
   EXPECT_NEAR(mean.change.mean, 0.0, 1e-12);

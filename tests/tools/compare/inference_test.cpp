@@ -19,7 +19,7 @@ TEST(Spread, IsTheUnbiasedVariance) {
   EXPECT_TRUE(std::isnan(spread({}).mean));
 }
 
-/// Values of printed tables of Student's distribution.
+/// Expected values are from printed tables of Student's t distribution.
 TEST(StudentTail, IsThatOfTheTables) {
   EXPECT_NEAR(student_tail(6.314, 1), 0.05, 1e-5);
   EXPECT_NEAR(student_tail(2.132, 4), 0.05, 2e-5);
@@ -31,15 +31,15 @@ TEST(StudentTail, IsThatOfTheTables) {
   EXPECT_NEAR(student_tail(-2.132, 4), 0.95, 2e-5);
 }
 
-/// One degree of freedom is Cauchy's distribution, whose tail is known in closed form, however far out.
+/// With one degree of freedom this is the Cauchy distribution, whose tail has a closed form.
 TEST(StudentTail, IsRightFarOut) {
   for (const double t : {0.5, 3.0, 40.0, 1e4})
     EXPECT_NEAR(student_tail(t, 1) / (std::atan(1.0 / t) / M_PI), 1.0, 1e-9) << t;
 }
 
 TEST(ChanceOfRise, IsWelchsTest) {
-  // means 1 and 2, variances 0.01 and 0.04 of three each: t = 1 / sqrt(0.05 / 3) = 7.746, with
-  // (0.05 / 3)^2 / ((0.01 / 3)^2 / 2 + (0.04 / 3)^2 / 2) = 2.941 degrees of freedom
+  // Two samples of three values have means 1 and 2 and variances 0.01 and 0.04. Then t = 1 / sqrt(0.05 / 3) = 7.746 and
+  // the degrees of freedom are (0.05 / 3)^2 / ((0.01 / 3)^2 / 2 + (0.04 / 3)^2 / 2) = 2.941.
   const Spread a = spread(std::array{0.9, 1.0, 1.1}), b = spread(std::array{1.8, 2.0, 2.2});
   EXPECT_NEAR(chance_of_rise(a, b), student_tail(7.745967, 2.941176), 1e-8);
   EXPECT_NEAR(chance_of_rise(b, a), 1.0 - chance_of_rise(a, b), 1e-12);
@@ -76,14 +76,15 @@ TEST(Bootstrap, HasNoIntervalOfOneValue) {
   EXPECT_EQ(bootstrap_mean(std::array{0.3, 0.3, 0.3}).low, 0.3);
 }
 
-/// Of two values a sample's mean is either, or their middle half of the time: the interval is all of it.
+/// A bootstrap sample of two values has one of them as mean in half of the cases, so the interval reaches from the one
+/// value to the other.
 TEST(Bootstrap, IsKnownOfTwoValues) {
   const MeanInterval interval = bootstrap_mean(std::array{1.0, 3.0});
   EXPECT_EQ(interval.low, 1.0);
   EXPECT_EQ(interval.high, 3.0);
 }
 
-/// How often the interval holds the truth: 95 % of many, fewer of few, which the document says.
+/// The interval contains the true mean in about 95 % of cases for many values and less often for few values.
 TEST(Bootstrap, HoldsTheTruthAsOftenAsItSays) {
   for (const auto& [count, least] : {std::pair{6, 0.85}, {20, 0.90}, {100, 0.92}}) {
     std::mt19937 noise(7);

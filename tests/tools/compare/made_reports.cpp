@@ -42,7 +42,7 @@ std::string report_text(const std::string& name, double position_rmse_m) {
   const nlohmann::json time{{"median", 100}, {"p99", 200}};
   const nlohmann::json report{{"name", name},
                               {"tags", {"lab", "short"}},
-                              {"overrides", {"ekf.gate_chi2=9"}},
+                              {"overrides", {"ekf.thinning_s=1"}},
                               {"made_by", "azimuth 1"},
                               {"run", "folder"},
                               {"estimator", "ekf"},

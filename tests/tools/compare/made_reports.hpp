@@ -8,17 +8,17 @@
 
 namespace azimuth::test {
 
-/// Place of a figure in figures().
+/// Index of a figure in figures().
 std::size_t figure(std::string_view key);
 
-/// A report that measured these alone.
+/// A report that contains only the given figures.
 RunReport made_report(const std::string& name, std::initializer_list<std::pair<std::string_view, double>> values,
                       std::uint64_t seed = 1, std::vector<std::string> tags = {});
 
-/// A run of a comparison by its name; there must be one.
+/// The run of a comparison with this name, which must exist.
 const ComparedRun& run_named(const Comparison& comparison, const std::string& name);
 
-/// Names of the runs with a trend in any figure, in order.
+/// Names of the runs in which any figure has this trend, in the order of the comparison.
 std::vector<std::string> names_with(const Comparison& comparison, Trend trend);
 
 /// Report text as `azimuth replay` writes it, with all figures.

@@ -19,7 +19,7 @@ TEST(RunReport, HasWhatAReportSays) {
   ASSERT_TRUE(read) << text(read.error());
   EXPECT_EQ(read->name, "monday");
   EXPECT_EQ(read->tags, (std::vector<std::string>{"lab", "short"}));
-  EXPECT_EQ(read->overrides, std::vector<std::string>{"ekf.gate_chi2=9"});
+  EXPECT_EQ(read->overrides, std::vector<std::string>{"ekf.thinning_s=1"});
   EXPECT_EQ(read->made_by, "azimuth 1");
   EXPECT_EQ(read->digest, "abc");
   EXPECT_EQ(read->seed, 7u);

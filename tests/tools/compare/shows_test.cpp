@@ -1,4 +1,4 @@
-// How often a run that got worse is found among twenty, and how often one is named that did not.
+// Measures how often a comparison of twenty runs finds the one run that got worse, and how often it names another run.
 
 #include <algorithm>
 #include <cmath>
@@ -13,12 +13,12 @@ namespace {
 
 constexpr int kRuns = 20;
 
-/// Runs that differ as drives do, each with several seeds that scatter by a part of its error.
+/// Twenty runs with different errors. Each has several seeds, whose errors scatter by the relative deviation `scatter`.
 class Corpus {
  public:
   Corpus(unsigned draw, double scatter, int seeds) : noise_(draw), scatter_(scatter), seeds_(seeds) {}
 
-  /// Seeds from `first_seed` on; the run `worse` has an error so many times as large.
+  /// One version of the corpus with seeds from `first_seed` on. The error of the run `worse` is multiplied by `factor`.
   Reports version(std::uint64_t first_seed, int worse = -1, double factor = 1.0) {
     Reports reports;
     for (int run = 0; run < kRuns; ++run)
@@ -50,7 +50,7 @@ bool names_alone(const Comparison& comparison, const std::string& name) {
   return test::names_with(comparison, Trend::worse) == std::vector<std::string>{name};
 }
 
-/// Equal versions give equal bits, whatever the seeds.
+/// Equal versions with equal seeds give bit-identical figures.
 TEST(Shows, OfTwentyPairsOfEqualVersionsNoneIsNamed) {
   for (unsigned draw = 0; draw < 20; ++draw) {
     const Reports version = Corpus(draw, 0.3, 1).version(1);
@@ -71,7 +71,7 @@ TEST(Shows, OneRunInTwentyThatIsAFifthWorseIsFoundAndNamedAlone) {
   }
 }
 
-/// As many trials as say something; the chance of a false alarm is 5 % in each.
+/// A comparison may raise a false alarm with a chance of 5 %.
 TEST(Shows, EqualVersionsOfOtherSeedsAreHardlyEverNamed) {
   constexpr int kTrials = 400;
   for (const auto& [scatter, seeds] : {std::pair{0.03, 5}, {0.1, 5}, {0.3, 5}, {0.1, 3}, {0.3, 10}, {0.3, 1}}) {

@@ -10,7 +10,7 @@ using testing::IsEmpty;
 
 class BoardChecks : public test::FakeMachine {
  protected:
-  /// As the driver of a Raspberry Pi's firmware prints it, whatever the device is called on that board.
+  /// Writes the throttling bits as the driver of the Raspberry Pi firmware prints them.
   void firmware(const std::string& bits) {
     write("/sys/devices/platform/soc/soc:firmware/get_throttled", bits + "\n");
     const std::string device = "/sys/bus/platform/drivers/raspberrypi-firmware/soc:firmware";

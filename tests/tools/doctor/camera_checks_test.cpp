@@ -19,7 +19,7 @@ class CameraChecks : public test::FakeMachine {
     machine.video_nodes = [this] { return nodes; };
     machine.iidc_cameras = [this] { return bus; };
   }
-  /// A camera on USB; the process is not the account's, unless `is_here` is set.
+  /// Adds a USB camera whose device file has the access mode `mode`.
   void plug_in(const std::string& name, const std::string& serial, mode_t mode) {
     write("/dev/" + name, "", mode);
     nodes.push_back({.path = "/dev/" + name,

@@ -13,7 +13,7 @@ class CanChecks : public test::FakeMachine {
     write("/sys/class/net/" + name + "/type", type + "\n");
     write("/sys/class/net/" + name + "/flags", is_up ? "0x40081\n" : "0x40080\n");
   }
-  /// What the program ip says from now on.
+  /// Sets the output of the program `ip`.
   void ip_says(const std::string& output) {
     machine.run = [output](const std::vector<std::string>& command) {
       return command[0] == "ip" ? std::optional(ProgramOutcome{0, output}) : std::nullopt;

@@ -1,5 +1,5 @@
 #pragma once
-// A machine made of files in a temporary folder.
+// A fixture that replaces the machine by files in a temporary folder.
 
 #include <cstdlib>
 #include <filesystem>
@@ -18,7 +18,7 @@ namespace azimuth::test {
 
 namespace fs = std::filesystem;
 
-/// The robot's owner: no member of any group, on a machine on which nothing is to be found yet.
+/// An empty machine. The account "ada" belongs to its own group only.
 class FakeMachine : public testing::Test {
  protected:
   FakeMachine() {
@@ -45,9 +45,9 @@ class FakeMachine : public testing::Test {
     write(folder + "/comm", name + "\n");
     if (!opened.empty()) link(folder + "/fd/5", opened);
   }
-  /// The group that files here belong to: an ordinary user of the tests cannot give them another.
+  /// The group of the created files, which an ordinary user cannot change.
   static gid_t file_group() { return ::getegid() == 0 ? 0 : ::getegid(); }
-  /// The account becomes a member of the files' group.
+  /// Makes the account a member of the group of the files.
   void join_files_group() {
     machine.account.groups.push_back(file_group());
     machine.account.groups_here.push_back(file_group());

@@ -8,7 +8,7 @@ using testing::HasSubstr;
 
 class NetworkChecks : public test::FakeMachine {
  protected:
-  /// As the kernel prints them on a little-endian machine.
+  /// Writes the routing table as the kernel prints it on a little-endian machine.
   void routes(const std::string& lines) {
     write("/proc/net/route",
           "Iface\tDestination\tGateway \tFlags\tRefCnt\tUse\tMetric\tMask\t\tMTU\tWindow\tIRTT\n" + lines);

@@ -1,4 +1,4 @@
-// What a drive says of odometry and camera.
+// Tests the calibration of odometry and camera heading from a simulated drive.
 
 #include "tools/drive_fit/calibration.hpp"
 
@@ -18,12 +18,12 @@ OdometryCalibration calibrated(const Run& run) {
 }
 
 TEST(CalibrateOdometry, FindsTurnDriftAndLagAndHowWellItKnowsThem) {
-  // GIVEN odometry of which the rig knows no error
+  // GIVEN odometry with errors that the rig does not contain
   const auto run =
       test::with_late_odometry(test::with_drift(test::with_scaled_turns(simulated_run(lab(21, 2)), 1.08), 0.02), 0.15);
   const OdometryCalibration found = calibrated(run);
   ASSERT_TRUE(found.turn.told && found.drift.told && found.lag.told);
-  // THEN it is found; the drift was put onto what had been scaled
+  // THEN the errors are found; the drift was added to the scaled turns, hence the division by 1.08
   EXPECT_NEAR(found.turn.value, 1.0 / 1.08, 3.0 * found.turn.sigma);
   EXPECT_NEAR(found.drift.value, -0.02 / 1.08, 3.0 * found.drift.sigma);
   EXPECT_NEAR(found.lag.value, -0.15, 3.0 * found.lag.sigma);
@@ -34,26 +34,26 @@ TEST(CalibrateOdometry, FindsTurnDriftAndLagAndHowWellItKnowsThem) {
 }
 
 TEST(CalibrateOdometry, FindsHowFarHeadingsWander) {
-  // GIVEN a rig that believes its heading to be ten times as good as it is, or as bad
+  // GIVEN a rig whose variance of the heading drift is ten times too small or too large
   const auto run = simulated_run(lab(22, 2));
   for (const double wrong : {0.1, 10.0}) {
     Rig rig = test::rig_of_run(run);
     rig.odometry.lambda_drift_rad2_per_m *= wrong;
     const OdometryCalibration found = calibrate_odometry(test::drive_of(run, rig), rig, {});
     ASSERT_TRUE(found.noise.of(NoiseSort::drift).is_told());
-    const double times = found.noise.of(NoiseSort::drift).variance / 1e-3;  // what the world was made with
+    const double times = found.noise.of(NoiseSort::drift).variance / 1e-3;  // ratio to the variance of the simulation
     EXPECT_GT(times, 0.5) << wrong;
     EXPECT_LT(times, 2.0) << wrong;
   }
 }
 
 TEST(CalibrateOdometry, TakesNoNoiseFartherDownThanOneDriveProves) {
-  // GIVEN a rig that believes turns to be a hundred times as noisy as they are
+  // GIVEN a rig whose noise of turns is a hundred times too large
   const auto run = simulated_run(lab(22, 1));
   Rig rig = test::rig_of_run(run);
   rig.odometry.lambda_rotation_rad *= 100.0;
   const OdometryCalibration found = calibrate_odometry(test::drive_of(run, rig), rig, {});
-  // THEN what is written is what may be relied on
+  // THEN the written noise is the safe one: one drive reduces it by a factor of 9 at most
   EXPECT_GE(found.solution.guess.rig.odometry.lambda_rotation_rad, 0.999 * rig.odometry.lambda_rotation_rad / 9.0);
   for (const OdometryNoise::Told& noise : found.noise.sorts) EXPECT_GT(noise.safe_variance, noise.variance);
 }
@@ -73,7 +73,7 @@ TEST(CalibrateOdometry, CoversAnOdometerThatCreeps) {
 
 TEST(CalibrateOdometry, OfARobotThatNeverTurnsTheScaleOfTurnsIsNotTold) {
   Scenario scenario = corridor(23);
-  scenario.path.resize(2);  // there, and not back
+  scenario.path.resize(2);  // one way only
   const auto run = simulated_run(scenario);
   const Rig rig = test::rig_of_run(run);
   const OdometryCalibration found = calibrate_odometry(test::drive_of(run, rig), rig, {});
@@ -108,7 +108,7 @@ TEST(CalibrateHeading, FindsWhereTheCameraStands) {
   EXPECT_NEAR(rad_to_degrees(found.yaw.value), 0.0, 0.5);
 }
 
-// Ahead of the axle, or late: to a robot that never turns it is the same.
+// A robot that hardly turns cannot tell a camera ahead of the axle from a lag.
 TEST(CalibrateHeading, ADriveThatTellsNoPositionLeavesItAsItWas) {
   auto run = first_seconds(simulated_run(lab(26, 1)), 12.0);
   Rig rig = test::rig_of_run(run);

@@ -1,4 +1,4 @@
-// What is followed from image to image is one thing, whatever the rig says.
+// Tests the tracks of bearings without identities: each track must follow one landmark, even if the rig is wrong.
 
 #include "tools/drive_fit/eye_tracks.hpp"
 
@@ -38,8 +38,8 @@ Identity name_in(const Drive& drive, std::size_t image, std::size_t bearing) {
   return drive.sets[image].bearings[bearing].identity;
 }
 
-/// How many bearings a track has on the mean, and what share of all bearings is of another landmark than most of its
-/// track.
+/// The mean number of bearings of a track, and the share of bearings that belong to another landmark than most bearings
+/// of their track.
 struct Tracks {
   double length = 0.0, mixed = 0.0;
 };
@@ -82,7 +82,7 @@ TEST(EyeTracks, AreOfOneLandmarkWhateverIsWrongWithTheRig) {
 }
 
 TEST(EyeTracks, GoOnWhileTheRobotTurnsOnTheSpot) {
-  // GIVEN two red things and a blue one, farther apart than the robot turns between two images, but not by much
+  // GIVEN two red landmarks and a blue one, a little farther apart than the robot turns between two images
   std::vector<std::vector<Bearing>> images;
   for (int i = 0; i < 12; ++i) {
     const double heading_rad = 0.7 * i;
@@ -95,7 +95,7 @@ TEST(EyeTracks, GoOnWhileTheRobotTurnsOnTheSpot) {
 }
 
 TEST(EyeTracks, OfTwoThatCannotBeToldApartEnd) {
-  // GIVEN two of a kind, one of which passes behind the other, and something that stands
+  // GIVEN two landmarks of one kind whose bearings cross, and two that do not move
   std::vector<std::vector<Bearing>> images;
   for (int i = -10; i <= 10; ++i)
     images.push_back({seen(0.012 * i, 0), seen(-0.012 * i, 0), seen(2.0, 1), seen(-2.0, 2)});
@@ -116,7 +116,7 @@ TEST(EyeTracks, OutliveAnImageThatDoesNotShowThem) {
 }
 
 TEST(EyeTracks, AreToldApartByLooksWhereThereAreAny) {
-  // GIVEN things of no kind whose looks differ, in another order in each image
+  // GIVEN landmarks without a kind whose descriptors differ, in a different order in each image
   std::vector<Descriptor> looks(4);
   for (std::size_t k = 0; k < looks.size(); ++k) looks[k].values[10 * k] = 200;
   std::vector<std::vector<Bearing>> images(8);

@@ -1,4 +1,4 @@
-// What was measured otherwise tells size and hand.
+// Tests the fit of found landmarks to measured points, which tells the scale and a mirrored map.
 
 #include "tools/drive_fit/known_points.hpp"
 
@@ -11,7 +11,7 @@
 namespace azimuth {
 namespace {
 
-/// An L, turned, enlarged and, if asked for, seen in a mirror.
+/// Points in the shape of an L, and the same points rotated, scaled and, on request, mirrored.
 std::vector<KnownPoint> points(double scale, bool mirrored) {
   const Pose2 T{3.0, -1.0, 0.7};
   std::vector<KnownPoint> result;

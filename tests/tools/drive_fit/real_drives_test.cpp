@@ -1,4 +1,4 @@
-// Recorded drives, calibrated as if nobody had.
+// Tests the calibration of recorded drives that starts from an uncalibrated rig.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ class RealDrives : public testing::TestWithParam<const char*> {
   }
   double rmse_m(const Rig& rig) const {
     Configuration configuration;
-    configuration.smoother.doubt_rig = false;  // it is the rig that is judged
+    configuration.smoother.doubt_rig = false;  // so that the errors of the rig show in the result
     const ReplayResult result = replay(run_, rig, configured_estimator(rig, configuration, nullptr), StageSettings{});
     return evaluate(replay_record(run_, rig, "", 1, result)).position_m.rmse;
   }
@@ -28,7 +28,7 @@ class RealDrives : public testing::TestWithParam<const char*> {
 };
 
 TEST_P(RealDrives, CalibrateTheirOdometryWithoutTruth) {
-  // GIVEN a real robot's drive and a rig as it came: turn scale 1, no drift, no lag
+  // GIVEN a real robot's drive and an uncalibrated rig: turn scale 1, no drift, no lag
   const Rig own = test::rig_of_run(run_);
   Rig rig = own;
   rig.odometry.scale_turn = 1.0;
@@ -41,7 +41,7 @@ TEST_P(RealDrives, CalibrateTheirOdometryWithoutTruth) {
              found.lag.sigma, found_m, own_m);
   for (const OdometryNoise::Told& noise : found.noise.sorts)
     fmt::print("  {:.3g} +- {:.2f}\n", noise.variance, noise.sigma_relative);
-  // THEN it is what was fitted to the truth, and as good
+  // THEN the result agrees with the rig that was fitted to the truth, and its replay is as good
   EXPECT_NEAR(found.turn.value, own.odometry.scale_turn, 0.02);
   EXPECT_NEAR(found.drift.value, own.odometry.drift_rad_per_m, 0.015);
   EXPECT_LT(found_m, 1.1 * own_m);

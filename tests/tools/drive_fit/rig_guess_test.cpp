@@ -1,4 +1,4 @@
-// What a rig is guessed to be, and the rig.toml that says so.
+// Tests the guess of a rig, its derivatives and the rig.toml that is written from it.
 
 #include "tools/drive_fit/rig_guess.hpp"
 
@@ -34,7 +34,7 @@ TEST(RigGuess, ErrorsThatAreAppliedAreThoseOfTheOdometryTrack) {
     track.add(reading);
     return track.advance_to(reading.stamp).T_odom_body.heading_rad;
   };
-  // THEN what was called turn, drift included, grows by the share, and the drift by its own
+  // THEN the whole turn, which includes the old drift, grows by the scale error, and the drift error is added
   const double before_rad = turned_rad(guess.rig);
   const double driven_m = 1.1 * std::hypot(1.0, 0.05);
   EXPECT_NEAR(turned_rad(moved(guess, errors).rig), 1.02 * before_rad - 0.01 * driven_m, 1e-9);
@@ -98,7 +98,7 @@ TEST(RigGuess, OfImagesDirectionAndOffsetSayWhatTheGuessDoes) {
 TEST(RigGuess, AnOffsetOfTheCentreGoesWhereItsAzimuthPoints) {
   Rig rig;
   rig.camera.image.azimuth_direction = -1;
-  rig.camera.image.azimuth_offset_rad = -0.5 * kPi;  // azimuth 0 is up in the image, and grows to the left
+  rig.camera.image.azimuth_offset_rad = -0.5 * kPi;  // azimuth 0 points up in the image, and azimuths grow to the left
   EXPECT_LT((in_image({3.0, 0.0}, rig) - Eigen::Vector2d(0.0, -3.0)).norm(), 1e-9);
   EXPECT_LT((in_image({0.0, 2.0}, rig) - Eigen::Vector2d(-2.0, 0.0)).norm(), 1e-9);
 }

@@ -1,4 +1,4 @@
-// A rough guess, however wrong the rig is.
+// Tests the rough search for a rig, which works from an arbitrarily wrong rig.
 
 #include "tools/drive_fit/short_stretches.hpp"
 

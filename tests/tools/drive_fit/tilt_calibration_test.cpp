@@ -1,4 +1,4 @@
-// How a camera leans, by the azimuths of a drive.
+// Tests the calibration of the camera tilt from the azimuths of a drive.
 
 #include "tools/drive_fit/tilt_calibration.hpp"
 

@@ -7,7 +7,7 @@
 namespace azimuth {
 namespace {
 
-// Tables of the distribution.
+// Expected values are from printed tables of the chi-squared distribution.
 TEST(Chi2, GivesTheTablesValues) {
   EXPECT_NEAR(chi2_quantile(0.95, 1), 3.841458821, 1e-8);
   EXPECT_NEAR(chi2_quantile(0.025, 1), 0.000982069, 1e-9);

@@ -7,7 +7,7 @@
 namespace azimuth {
 namespace {
 
-/// At 2 m/s from 0 to 20 s.
+/// A drive at 2 m/s from 0 to 20 s.
 std::vector<DrivenBy> driven() {
   std::vector<DrivenBy> driven;
   for (int i = 0; i <= 20; ++i) driven.push_back({at_s(i), 2.0 * i});
@@ -34,7 +34,7 @@ TEST(HealthReport, AHealthHoldsUntilTheNextStep) {
 }
 
 TEST(HealthReport, CountsWhatWasDrivenBlind) {
-  std::vector<StepHealth> steps;  // twice a second; nothing seen before 2 s, and from 10 to 14 s; no step after 18 s
+  std::vector<StepHealth> steps;  // 2 Hz; no bearings before 2 s and from 10 to 14 s; the last step is at 18 s
   for (int i = 0; i <= 36; ++i) {
     const double t_s = 0.5 * i;
     steps.push_back({at_s(t_s), Health::tracking, "", t_s >= 2.0 && !(t_s > 10.0 && t_s < 14.0)});

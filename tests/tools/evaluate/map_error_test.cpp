@@ -13,7 +13,7 @@ NamedPoint at(double x_m, double y_m, double sigma_m = 0.0) {
   return {.p_m = {x_m, y_m}, .covariance_m2 = Eigen::Vector2d::Constant(sigma_m * sigma_m).asDiagonal()};
 }
 
-// Of 20 m by 0: the whole may be bent by 0.4 m, and nothing is matched beyond 2 m.
+// True landmarks that span 20 m. The map may be bent by 0.4 m as a whole, and no match is farther than 2 m.
 const Points kThree{at(0.0, 0.0), at(10.0, 0.0), at(20.0, 0.0)};
 
 void expect_parts(const MapError& error, std::size_t matched, std::size_t duplicates, std::size_t phantoms) {
@@ -24,8 +24,8 @@ void expect_parts(const MapError& error, std::size_t matched, std::size_t duplic
 }
 
 TEST(MapError, EveryLandmarkIsOneOfThree) {
-  const Points map{at(0.0, 0.3), at(0.0, -0.39),   // the same twice
-                   at(10.0, 0.1), at(20.0, 0.5)};  // too far off for what it says of itself
+  const Points map{at(0.0, 0.3), at(0.0, -0.39),   // two landmarks for one true landmark
+                   at(10.0, 0.1), at(20.0, 0.5)};  // (20, 0.5) is too far off for its covariance
   const MapError error = map_error(map, kThree, Pose2{});
   EXPECT_EQ(error.true_landmarks, 3u);
   expect_parts(error, 2, 1, 1);
@@ -42,7 +42,7 @@ TEST(MapError, OneLandmarkIsNotTwoOfThoseThatStandSideBySide) {
 }
 
 TEST(MapError, PairsAllTogetherNotEachForItself) {
-  // The nearest of the first is taken by the second, which has no other.
+  // The true landmark nearest to the first estimate goes to the second estimate, which has no other within reach.
   const Points map{at(1.1, 0.0, 0.5), at(1.4, 0.0, 0.05)};
   const Points world{at(0.0, 0.0), at(1.2, 0.0), at(20.0, 0.0)};
   const MapError error = map_error(map, world, Pose2{});
@@ -98,7 +98,7 @@ TEST(MapError, WhatIsNotANumberMatchesNothing) {
 }
 
 TEST(NamedMapError, TellsNeighboursApart) {
-  // Two landmarks closer together than the map is wrong: their estimates have changed places.
+  // Two landmarks are closer together than the error of the map, and their estimates have changed places.
   const std::vector<NamedPoint> truth{{7, {0.0, 0.0}}, {8, {0.2, 0.0}}, {9, {5.0, 0.0}}};
   const std::vector<NamedPoint> estimated{{7, {0.2, 0.0}}, {8, {0.0, 0.0}}, {kUnknownIdentity, {5.0, 0.0}}};
   EXPECT_DOUBLE_EQ(map_error(estimated, truth, Pose2{}).position_m.max, 0.0);
@@ -138,10 +138,10 @@ TEST(SpaceMapError, CountsHeightsAndTurnsTheMap) {
   const std::vector<NamedPoint> truth{{.p_m = {4.0, 0.0}, .z_m = 6.5},
                                       {.p_m = {2.0, -1.0}, .z_m = 6.5},
                                       {.p_m = {23.0, 9.0}, .z_m = 6.5},
-                                      {.p_m = {4.0, 0.0}}};  // of which no height is known
+                                      {.p_m = {4.0, 0.0}}};                                   // has no known height
   const std::vector<NamedPoint> estimated{{.p_m = {1.0, 0.3}, .z_m = 6.9, .sigma_z_m = 0.1},  // 0.5 m from the first
                                           {.p_m = {0.0, 2.0}, .z_m = 6.3},                    // 0.2 m below the second
-                                          {.p_m = {0.0, 2.0}, .z_m = 6.2},                    // a further one of it
+                                          {.p_m = {0.0, 2.0}, .z_m = 6.2},                    // a duplicate of it
                                           {.p_m = {10.0, -19.0}, .z_m = 8.1, .sigma_z_m = 0.3},  // too high
                                           {.p_m = {0.0, 2.0}}};                                  // in the plane only
   const SpaceMapError error = space_map_error(estimated, truth, T_world_map);

@@ -9,7 +9,7 @@
 namespace azimuth {
 namespace {
 
-/// Ten images a second, one of them late, and what each step took.
+/// The report of a run with ten images per second, one of which is late, and the given durations of a step.
 Report paced(const std::string& estimator, const std::string& front_end, double step_us, double detect_us = 0.0) {
   ReplayRecord record;
   record.estimator = estimator;

@@ -70,7 +70,7 @@ TEST(Consistency, IsThreeForHonestCovariances) {
   Eigen::Matrix3d covariance;
   covariance << 0.04, 0.01, 0.002, 0.01, 0.09, -0.01, 0.002, -0.01, 0.01;
   const Eigen::Matrix3d factor = covariance.llt().matrixL();
-  // The frame of the first pose is turned against both world and map: the covariance must turn along.
+  // The frame of the first pose is rotated against the world and the map, so the covariance must be rotated too.
   const Pose2 T_world_map{5.0, -2.0, 0.8};
   std::vector<EstimateRecord> estimates;
   std::vector<PosePair> pairs;
@@ -107,7 +107,7 @@ TEST(Consistency, LeavesOutSingularCovariances) {
 TEST(TwoSigma, AreOfTheErrorsOwnDirection) {
   RelativeError error;
   error.covariance = Eigen::Vector3d(0.04, 0.01, 1.0).asDiagonal();
-  error.error = {0.4, 0.0, 5.0};  // the heading does not count
+  error.error = {0.4, 0.0, 5.0};  // the heading is not used
   const TwoSigmaShare along = two_sigma_share(error).value();
   EXPECT_DOUBLE_EQ(along.of_direction, 1.0);
   EXPECT_NEAR(along.of_ellipse, 2.0 / std::sqrt(5.991), 1e-4);

@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Five seconds along a straight line; the estimate is 0.1 m off to alternate sides, odometry is off by a factor.
+/// Five seconds along a straight line. The estimate is 0.1 m off to alternate sides; odometry has a scale error.
 ReplayRecord made_record() {
   ReplayRecord record;
   record.run = "made";
@@ -64,9 +64,9 @@ TEST(Report, JudgesAHandMadeRun) {
   const Report report = evaluate(made_record());
   EXPECT_EQ(report.steps, 11u);
   EXPECT_EQ(report.position_m.count, 11u);
-  EXPECT_NEAR(report.position_m.rmse, 0.1, 0.002);  // the mean of eleven alternating errors is not quite 0
+  EXPECT_NEAR(report.position_m.rmse, 0.1, 0.002);  // eleven alternating errors have a mean slightly off 0
   EXPECT_NEAR(report.heading_rad.max, 0.0, 1e-3);
-  EXPECT_NEAR(report.odometry_m.max, 0.2 * 5.0, 1e-9);  // aligned at the middle, a fifth too long
+  EXPECT_NEAR(report.odometry_m.max, 0.2 * 5.0, 1e-9);  // the path is 20 % too long and aligned at its middle
   EXPECT_NEAR(report.odometry_raw_m.max, 0.5 * 5.0, 1e-9);
   EXPECT_TRUE(report.two_sigma_final.isApprox(Eigen::Vector3d(0.2, 0.4, 0.1)));
   EXPECT_EQ(report.map.matched, 1u);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kSigma_rad = 0.005;
 
-/// A robot on a circle of 3 m, one pose a second.
+/// True poses of a robot on a circle of 3 m radius, one per second.
 std::vector<StampedPose> circle(int poses) {
   std::vector<StampedPose> truth;
   for (int k = 0; k < poses; ++k) {
@@ -46,17 +46,17 @@ TEST(SightingErrors, CountsSightingsOfSomethingElse) {
   RandomDraws draws(122);
   const std::vector<StampedPose> truth = circle(40);
   std::vector<SightingRecord> sightings;
-  std::size_t planted = 0;
+  std::size_t initialised = 0;
   for (std::int64_t id = 0; id < 30; ++id) {
     const Eigen::Vector2d landmark = draws.point(6.0) + Eigen::Vector2d(10.0, 0.0);
     for (const StampedPose& pose : truth) {
       const bool wrong = draws.chance(0.2);
       const double off_rad = wrong ? draws.uniform(0.1, 3.0) : draws.normal(kSigma_rad);
-      planted += wrong ? 1 : 0;
+      initialised += wrong ? 1 : 0;
       sightings.push_back(sighting_of(id, landmark, pose, off_rad));
     }
   }
-  EXPECT_EQ(sighting_errors(sightings, truth).wrong, planted);
+  EXPECT_EQ(sighting_errors(sightings, truth).wrong, initialised);
 }
 
 TEST(SightingErrors, ALandmarkMadeOfTwoIsHalfWrong) {

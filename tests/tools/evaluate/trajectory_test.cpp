@@ -16,7 +16,7 @@ TEST(PoseAt, InterpolatesAcrossOneSecond) {
   ASSERT_TRUE(pose);
   EXPECT_DOUBLE_EQ(pose->x_m, 0.5);
   EXPECT_DOUBLE_EQ(pose->y_m, 1.0);
-  EXPECT_NEAR(pose->heading_rad, 3.0 + 0.25 * (2 * kPi - 6.0), 1e-12);  // the short way, across pi
+  EXPECT_NEAR(pose->heading_rad, 3.0 + 0.25 * (2 * kPi - 6.0), 1e-12);  // interpolates the short way, across pi
 }
 
 TEST(PoseAt, DoesNotBridgeALongerGap) {

@@ -1,4 +1,5 @@
-// Bags and MCAP files as others read them: ROS's own library, a reader written by MCAP's specification, our import.
+// Reads exported bags and MCAP files with three readers: the library of ROS, a reader written from the specification of
+// MCAP, and the import of this project.
 
 #include <array>
 #include <cmath>
@@ -61,7 +62,7 @@ class ForeignReaders : public testing::Test {
     return folder_.path() / name;
   }
 
-  /// Every value of every message, as a reader took them apart by the definitions in the file.
+  /// Checks every value of every message as a reader decoded it with the definitions in the file.
   static void expect_sample(const Json& topics) {
     ASSERT_EQ(topics.size(), kRecordedTopics.size());
     const Json& poses = topics["/azimuth/pose"]["messages"];

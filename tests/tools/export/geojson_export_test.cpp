@@ -53,7 +53,7 @@ TEST(PathGeoJson, LiesOnTheGlobeWhereItIsKnown) {
 TEST(PathGeoJson, IsCutAtTheAntimeridian) {
   Estimated estimated = sample();
   estimated.path.clear();
-  for (int i = 0; i < 6; ++i) estimated.path.push_back({stamp_from_us(i), {0.0, 300.0 * i, 0.0}});  // y points west
+  for (int i = 0; i < 6; ++i) estimated.path.push_back({stamp_from_us(i), {0.0, 300.0 * i, 0.0}});  // y is west
   const Json json = Json::parse(path_geojson(estimated, MapOrigin{0.0, -179.99, 0.0}));
   const Json& geometry = json["features"][0]["geometry"];
   ASSERT_EQ(geometry["type"], "MultiLineString");

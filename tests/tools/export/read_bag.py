@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Reads a bag with ROS's own library of Python (Debian: python3-rosbag), which needs the index, and prints it as JSON. The
-messages are taken apart by the definitions in the bag, whose checksums that library works out anew.
+"""Reads a bag with the Python library of ROS (Debian: python3-rosbag), which needs the index, and prints it as JSON.
+The library decodes the messages with the definitions in the bag and computes the checksums of these definitions again.
 
-usage: read_bag.py FILE      exit code 77: there is no rosbag here
+usage: read_bag.py FILE      exit code 77: rosbag is missing
 """
 
 import json

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Reads an MCAP file by its specification, checks every checksum, length and index, takes the messages apart by the schemas
-that the file carries, and prints it all as JSON. Shares nothing with the writer.
+"""Reads an MCAP file according to its specification, checks every checksum, length and index, decodes the messages with
+the schemas in the file, and prints everything as JSON. It shares no code with the writer.
 
-usage: read_mcap.py FILE      exit code 0: sound, 1: not
+usage: read_mcap.py FILE      exit code 0: the file is sound, 1: it is not
 """
 
 import json
@@ -23,7 +23,7 @@ def require(condition, complaint):
 
 
 class Fields:
-    """The content of a record, from its front."""
+    """Reads the fields of a record one after the other."""
 
     def __init__(self, data):
         self.data, self.at = data, 0
@@ -56,7 +56,7 @@ class Fields:
 
 
 def records(data, begin, end):
-    """(op, content, where it begins, where it ends)"""
+    """Yields (op, content, begin, end) of each record between `begin` and `end`."""
     at = begin
     while at < end:
         op, size = struct.unpack_from("<BQ", data, at)
@@ -66,7 +66,7 @@ def records(data, begin, end):
     require(at == end, "a section ends amid a record")
 
 
-# Schemas: ros2msg.
+# Scalar types of schemas in the encoding ros2msg, with their codes for struct.
 SCALARS = {"bool": "?", "byte": "B", "uint8": "B", "int32": "i", "uint32": "I", "float32": "f", "float64": "d"}
 
 

@@ -11,7 +11,7 @@
 namespace azimuth::test {
 namespace {
 
-/// What a daemon published, in a log.
+/// Writes the messages of a daemon to a log and reads them back.
 class RecordedOutputsTest : public testing::Test {
  protected:
   template <class Message>
@@ -90,9 +90,9 @@ TEST_F(RecordedOutputsTest, HaveTheReasonThatTheStatusTells) {
 
 TEST_F(RecordedOutputsTest, HaveTheNewestMapThatIsWhole) {
   send_map(1, 0, 1, 7);
-  send_map(2, 1, 2, 9);  // in any order
+  send_map(2, 1, 2, 9);  // the pieces may come in any order
   send_map(2, 0, 2, 8);
-  send_map(3, 0, 2, 10);  // its second piece is missing
+  send_map(3, 0, 2, 10);  // this map lacks its second piece
   send_pose(1, 0.0);
   const Estimated estimated = read();
   ASSERT_EQ(estimated.landmarks.size(), 2u);

@@ -12,7 +12,7 @@ namespace {
 
 struct Recorded {
   std::vector<Stamp> stamps;
-  std::map<std::size_t, std::vector<RecordedMessage>> messages;  // by topic
+  std::map<std::size_t, std::vector<RecordedMessage>> messages;  // keyed by the index of the topic
 };
 
 Recorded record(const Estimated& estimated) {

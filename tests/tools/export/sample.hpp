@@ -1,5 +1,5 @@
 #pragma once
-// Something that was estimated.
+// A sample estimate for the tests of the export.
 
 #include <cmath>
 #include <cstdint>
@@ -10,7 +10,8 @@ namespace azimuth::test {
 
 inline constexpr std::int64_t kSampleBegin_us = 1'700'000'000'000'000;
 
-/// Ten a second, round a circle; odometry lies elsewhere, and the health changes at 3.0 s and at 5.5 s.
+/// Pose `i` of a drive round a circle, with ten poses per second. The odometry frame differs from the map frame, and
+/// the health changes at 3.0 s and at 5.5 s.
 inline EstimatedPose sample_pose(std::int64_t i) {
   const double angle = 0.05 * static_cast<double>(i);
   EstimatedPose pose;
@@ -23,7 +24,7 @@ inline EstimatedPose sample_pose(std::int64_t i) {
   return pose;
 }
 
-/// Three landmarks: one with a name, one with a height, one that is hardly known.
+/// The drive with three landmarks: one with an identity, one with a height, one with a large covariance.
 inline Estimated sample(std::int64_t poses = 80) {
   Estimated estimated;
   estimated.run = "sample";

@@ -1,4 +1,4 @@
-// KITTI and CSV.
+// Tests the export to KITTI and CSV files.
 
 #include <Eigen/Geometry>
 #include <array>
@@ -31,7 +31,7 @@ Eigen::Matrix4d kitti_pose(const std::string& line) {
 }
 
 TEST(Kitti, IsTheMapsPoseSeenByACameraThatLooksAhead) {
-  Eigen::Matrix4d A = Eigen::Matrix4d::Zero();  // the robot's axes to the camera's
+  Eigen::Matrix4d A = Eigen::Matrix4d::Zero();  // from the axes of the robot to those of the camera
   A(0, 1) = A(1, 2) = -1.0;
   A(2, 0) = A(3, 3) = 1.0;
   const Estimated estimated = sample();

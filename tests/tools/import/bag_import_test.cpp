@@ -25,7 +25,7 @@ std::string pixels(std::size_t count, int seed) {
   return bytes;
 }
 
-/// 10 s of odometry at 10 Hz, an image a second, a text.
+/// 10 s of odometry at 10 Hz, one image per second and a message with text.
 std::vector<BagMessage> drive() {
   std::vector<BagMessage> messages;
   for (int i = 0; i < 100; ++i) {
@@ -121,7 +121,7 @@ TEST_F(Bags, AreListedWithWhatWouldBeTaken) {
 }
 
 TEST_F(Bags, TellWhereTheCameraStands) {
-  // GIVEN images of a camera on a mast that stands in the robot's frame
+  // GIVEN images of a camera whose frame hangs on a mast in the robot's frame
   std::vector<BagMessage> messages = without(drive(), "/camera/image_raw");
   for (int i = 0; i < 10; ++i) {
     RosBytes image;
@@ -140,7 +140,7 @@ TEST_F(Bags, TellWhereTheCameraStands) {
   std::ranges::stable_sort(messages, {}, &BagMessage::recorded_s);
   write_bag(bag(), messages);
 
-  // WHEN it is imported with a rig that is silent, and without one
+  // WHEN the bag is imported with a rig that has no camera position, and without a rig
   write_file(scratch_ / "rig.toml", "[camera]\nmodel = \"bearings\"\n");
   const Outcome with_rig = run_import({"--rig", scratch_ / "rig.toml"});
   ASSERT_EQ(with_rig.code, 0) << with_rig.err;

@@ -9,7 +9,7 @@
 namespace azimuth::test {
 namespace {
 
-/// What the library asks of a message's type, as values: the checksum need only tell types apart.
+/// A message with the type information that the ROS library asks for. The checksum only has to differ between types.
 struct Sent {
   std::string type, definition, checksum, bytes;
 };
@@ -56,7 +56,7 @@ bool can_write_bags() { return true; }
 
 void write_bag(const std::filesystem::path& file, const std::vector<BagMessage>& messages, BagCompression compression) {
   console_bridge::noOutputHandler();
-  ::setenv("ROS_HOME", file.parent_path().c_str(), 1);  // or it would write to the home folder
+  ::setenv("ROS_HOME", file.parent_path().c_str(), 1);  // otherwise the library writes to the home folder
   rosbag::Bag bag(file.string(), rosbag::bagmode::Write);
   bag.setChunkThreshold(2000);
   if (compression == BagCompression::bz2) bag.setCompression(rosbag::compression::BZ2);

@@ -1,5 +1,5 @@
 #pragma once
-// Bags of ROS 1, written by ROS's own library.
+// Writes bags of ROS 1 with the library of ROS.
 
 #include <filesystem>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace azimuth::test {
 
-/// One message on its way into a bag.
+/// One message to write to a bag.
 struct BagMessage {
   std::string topic;
   RosType type;
@@ -19,10 +19,10 @@ struct BagMessage {
 
 enum class BagCompression { none, bz2, lz4 };
 
-/// Whether that library was there when this was compiled.
+/// True if the library of ROS was present at compile time.
 bool can_write_bags();
 
-/// Writes a bag of small chunks, so that there are many.
+/// Writes a bag of many small chunks.
 void write_bag(const std::filesystem::path& file, const std::vector<BagMessage>& messages,
                BagCompression compression = BagCompression::none);
 

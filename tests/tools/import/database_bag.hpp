@@ -1,5 +1,5 @@
 #pragma once
-// Bags of ROS 2 in SQLite, as rosbag2 lays them out.
+// Writes bags of ROS 2 in SQLite with the layout of rosbag2.
 
 #include <cstdint>
 #include <sqlite3.h>
@@ -31,7 +31,7 @@ class DatabaseBag {
   void topic(int id, const std::string& name, const std::string& type, const std::string& format = "cdr") {
     run("INSERT INTO topics VALUES(" + std::to_string(id) + ", '" + name + "', '" + type + "', '" + format + "', '')");
   }
-  /// As databases have them since Iron.
+  /// Adds the definition of a type, which databases contain since ROS 2 Iron.
   void definition(const RosType& type) {
     run("CREATE TABLE IF NOT EXISTS message_definitions(id INTEGER PRIMARY KEY, topic_type TEXT NOT NULL, encoding "
         "TEXT NOT NULL, encoded_message_definition TEXT NOT NULL, type_description_hash TEXT NOT NULL)");

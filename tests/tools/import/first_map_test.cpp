@@ -1,4 +1,5 @@
-// From a recording of others to a map, as somebody comes who has neither rig nor code: three commands each.
+// Makes a map from a recording of another program without a rig and without code. Each format takes three commands:
+// import, calibrate and replay.
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -38,12 +39,12 @@ class FirstMap : public testing::Test {
     write_file(scratch_ / "truth.csv", truth.str());
   }
 
-  /// Recordings have the time of day; the run begins at 0.
+  /// The stamp as time of day, which recordings have; the run begins at 0.
   static std::int64_t time_us(Stamp stamp) { return kTimeOfDay_s * 1'000'000 + to_us(stamp); }
   static double time_s(Stamp stamp) { return static_cast<double>(kTimeOfDay_s) + to_seconds(stamp); }
   std::string jpeg(const FrameFile& frame) const { return file_bytes(drive_.folder / frame.file); }
 
-  /// WHEELS with poses, CAM with images, of bot_core both, and something else.
+  /// Writes an LCM log with bot_core poses on WHEELS, bot_core images on CAM and a channel BATTERY of unknown type.
   void write_log(bool compressed) const {
     EventLogWriter log = *EventLogWriter::create(scratch_ / "drive.lcm");
     std::vector<std::byte> data;
@@ -67,7 +68,7 @@ class FirstMap : public testing::Test {
     ASSERT_FALSE(log.write(time_us(drive_.odometry.back().stamp), "BATTERY", std::vector<std::byte>(12)));
   }
 
-  /// The second and the third command.
+  /// Runs the second and the third command and expects a map.
   void expect_a_map() const {
     const std::string run = scratch_ / "run", rig = run + "/rig.toml", map = scratch_ / "map.png";
     const Outcome calibrated = azimuth({"calibrate", "mirror", run, "--out", rig});
@@ -130,15 +131,15 @@ TEST_F(FirstMap, OfABag) {
 TEST_F(FirstMap, OfALogOfOthersWithoutARig) {
   write_log(true);
   const std::string log = scratch_ / "drive.lcm", run = scratch_ / "run";
-  const std::vector<std::string> convert{"convert", log, run, "--odometry-channel", "WHEELS"};
+  const std::vector<std::string> convert{"import", log, run, "--odometry-channel", "WHEELS"};
   const Outcome blind = azimuth(convert);
   EXPECT_NE(blind.out.find("events on foreign channels; perhaps --image-channel CAM\n"), std::string::npos)
       << blind.out << blind.err;
   fs::remove_all(run);
   const Outcome replayed = azimuth({"replay", log, "--odometry-channel", "WHEELS", "--image-channel", "CAM"});
   EXPECT_EQ(replayed.code, 2);
-  EXPECT_NE(replayed.err.find("azimuth convert makes a run folder without"), std::string::npos) << replayed.err;
-  expect_next_is_the_rig(azimuth({"convert", log, run, "--odometry-channel", "WHEELS", "--image-channel", "CAM"}));
+  EXPECT_NE(replayed.err.find("azimuth import makes a run folder without"), std::string::npos) << replayed.err;
+  expect_next_is_the_rig(azimuth({"import", log, run, "--odometry-channel", "WHEELS", "--image-channel", "CAM"}));
   EXPECT_FALSE(fs::exists(run + "/rig.toml"));
   EXPECT_EQ(file_bytes(run + "/frames/000007.jpg"), jpeg(drive_.frames[7]));
   expect_a_map();
@@ -147,7 +148,7 @@ TEST_F(FirstMap, OfALogOfOthersWithoutARig) {
 TEST_F(FirstMap, OfALogWhoseImagesAreNotCompressed) {
   write_log(false);
   expect_next_is_the_rig(azimuth(
-      {"convert", scratch_ / "drive.lcm", scratch_ / "run", "--odometry-channel", "WHEELS", "--image-channel", "CAM"}));
+      {"import", scratch_ / "drive.lcm", scratch_ / "run", "--odometry-channel", "WHEELS", "--image-channel", "CAM"}));
   EXPECT_TRUE(fs::exists(scratch_ / "run/frames/000007.png"));
   expect_a_map();
 }

@@ -23,7 +23,7 @@ FileResult<std::vector<OdometryReading>> odometry(std::string_view text, const s
   return foreign_odometry({text, "odo.txt", columns, "--columns"}, wheels, notes);
 }
 
-/// What is wrong with a table, one error a line.
+/// The errors of a table, one per line.
 std::string wrong(std::string_view table, const std::string& columns = kColumns, const Wheels& wheels = {}) {
   const auto read = odometry(table, columns, wheels);
   return read ? "" : text(read.error());
@@ -159,7 +159,8 @@ TEST(ForeignBearings, InDegreesAreAskedFor) {
   EXPECT_EQ(text(sets.error()), "b.csv:2: brg \"148\" is out of range: in degrees? azimuth_rad=brg[deg] says so\n");
 }
 
-/// Five images a second, each of three landmarks; `stamp(image)` is written, and in a second column what is beyond it.
+/// Five images per second, each of three landmarks. The first column has `stamp(image)`, the second one the nanoseconds
+/// within the second.
 std::string bearings_of(std::string (*stamp)(int), int images) {
   std::string table = "t,nsec,brg,id\n";
   for (int i = 0; i < images; ++i)

@@ -1,4 +1,4 @@
-// azimuth import of MCAP.
+// Runs `azimuth import` on MCAP files.
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// 10 s of odometry at 10 Hz, an image a second, and what nobody asks for.
+/// 10 s of odometry at 10 Hz, one image per second and a topic that the import ignores.
 std::string recorded_drive() {
   std::string records = mcap_schema(1, kRos2Odometry) + mcap_channel(1, 1, "/odom") + mcap_schema(2, kRos2Image) +
                         mcap_channel(2, 2, "/camera/image_raw") + mcap_channel(3, 0, "/log", "json");
@@ -48,7 +48,7 @@ TEST(McapImport, MakesARunFolder) {
   EXPECT_EQ(run.frames.size(), 10u);
 }
 
-/// Odometry of 10 s from `begin_s` on, as ROS 2 numbers the parts of a recording.
+/// Odometry of 10 s from `begin_s` on: one part of a recording that ROS 2 has split.
 std::string part_of_drive(double begin_s) {
   std::string records = mcap_schema(1, kRos2Odometry) + mcap_channel(1, 1, "/odom");
   for (int i = 0; i < 100; ++i) {
@@ -113,7 +113,7 @@ TEST(McapImport, OfOnePartSaysThatThereAreOthers) {
   EXPECT_EQ(imported(scratch / "all").odometry.size(), 200u);
 }
 
-/// Two senders on one topic by turns, a quarter of a metre apart.
+/// Odometry of two senders on one topic in turns, 0.25 m apart.
 std::string mixed_drive(const std::string& first, const std::string& second, const std::string& frame) {
   std::string records = mcap_schema(1, kRos2Odometry) + mcap_channel(1, 1, "/odom", "cdr", first) +
                         mcap_channel(2, 1, "/odom", "cdr", second);
@@ -208,7 +208,7 @@ TEST(McapImport, MessagesThatUnpackToMoreThanARecordingDoesAreLeftOut) {
   EXPECT_LT(imported(scratch / "run").frames.size(), 20u);
 }
 
-/// A drive ahead and then on a circle to the left, whose orientation nobody set.
+/// A drive straight ahead and then on a circle to the left. The messages have no orientation.
 std::string unset_drive(bool with_twist) {
   std::string records = mcap_schema(1, kRos2Odometry) + mcap_channel(1, 1, "/odom");
   for (int i = 0; i < 100; ++i) {

@@ -1,4 +1,4 @@
-// In place of bag_writer.cpp where librosbag-storage-dev is not installed.
+// Replaces bag_writer.cpp if librosbag-storage-dev is not installed.
 
 #include "tests/tools/import/bag_writer.hpp"
 

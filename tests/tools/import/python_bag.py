@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Writes a bag of odometry and images by rosbag's own Python, whose messages it makes from the definitions they carry.
+"""Writes a bag of odometry and images with the Python library rosbag, which makes the message types from their
+definitions.
 
-usage: python_bag.py FILE none|bz2|lz4      exit code 77: there is no rosbag here
+usage: python_bag.py FILE none|bz2|lz4      exit code 77: rosbag is missing
 """
 
 import sys

@@ -9,7 +9,7 @@
 namespace azimuth::test {
 namespace {
 
-/// Keeps the bytes, which the message borrows.
+/// A message together with the bytes that it refers to.
 struct Ros2Message {
   explicit Ros2Message(const RosType& type) : message(definition_of(type)) {}
 

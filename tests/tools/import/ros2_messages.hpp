@@ -1,5 +1,5 @@
 #pragma once
-// Messages of ROS 2: definitions as ROS 2 writes them into MCAP, bytes in CDR, and MCAP around them.
+// Messages of ROS 2: the definitions that ROS 2 writes to MCAP files, messages in CDR, and MCAP records around them.
 
 #include <bit>
 #include <cstdint>
@@ -61,7 +61,7 @@ float64[] velocity
 float64[] effort
 )" + kRos2Header};
 
-/// CDR, little-endian: each value at a multiple of its size after the first four bytes.
+/// Builds CDR bytes, little-endian. Each value is aligned to its size, counted from behind the first four bytes.
 class CdrBytes {
  public:
   CdrBytes& u8(std::uint8_t value) { return bytes_ += static_cast<char>(value), *this; }
@@ -115,7 +115,7 @@ inline std::string ros2_image(double stamp_s, std::uint32_t width, std::uint32_t
   return bytes.bytes();
 }
 
-// MCAP.
+// Parts of MCAP files.
 
 inline std::string mcap_u16(std::uint16_t value) {
   return {static_cast<char>(value & 0xff), static_cast<char>(value >> 8U)};
@@ -145,7 +145,7 @@ inline std::string mcap_message(std::uint16_t channel, double recorded_s, const 
   const auto ns = static_cast<std::uint64_t>(recorded_s * 1e9 + 0.5);
   return mcap_record(5, mcap_u16(channel) + mcap_u32(0) + mcap_u64(ns) + mcap_u64(ns) + data);
 }
-/// `packed`: `records` as `compression` says; the checksum is of those, 0 for none.
+/// A chunk. `packed` is `records` compressed by `compression`. `checksum` is that of `records`; 0 means none.
 inline std::string mcap_chunk(const std::string& records, const std::string& compression, const std::string& packed,
                               std::uint32_t checksum = 0) {
   return mcap_record(6, mcap_u64(1) + mcap_u64(2) + mcap_u64(records.size()) + mcap_u32(checksum) +

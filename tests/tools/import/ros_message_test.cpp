@@ -16,7 +16,7 @@ namespace {
 
 Bytes bytes_of(const std::string& text) { return std::as_bytes(std::span(text.data(), text.size())); }
 
-/// Keeps the bytes, which the message borrows, until the next call.
+/// Reads `bytes` into the message, which refers to them. The function keeps them until its next call.
 bool load(RosMessage& message, std::string bytes) {
   static std::string kept;
   kept = std::move(bytes);

@@ -1,5 +1,5 @@
 #pragma once
-// Messages of ROS 1 as bags hold them: definitions as ROS 1 has them, and bytes.
+// Messages of ROS 1 as bags contain them: the definitions of ROS 1 and the serialised bytes.
 
 #include <bit>
 #include <cstdint>
@@ -119,7 +119,7 @@ Quaternion rotation
 
 inline const RosType kTextType{"std_msgs/String", "string data\n"};
 
-/// Bytes in the order in which ROS writes them.
+/// Builds the serialised bytes of a ROS 1 message.
 class RosBytes {
  public:
   RosBytes& u8(std::uint8_t value) { return bytes_ += static_cast<char>(value), *this; }
@@ -147,7 +147,7 @@ class RosBytes {
     const auto whole = static_cast<std::uint32_t>(stamp_s);
     return u32(7).u32(whole).u32(static_cast<std::uint32_t>((stamp_s - whole) * 1e9 + 0.5)).text(frame);
   }
-  /// Position, orientation.
+  /// Appends position and orientation.
   RosBytes& pose(double x_m, double y_m, double qz, double qw) { return f64s({x_m, y_m, 0.0, 0.0, 0.0, qz, qw}); }
 
   const std::string& bytes() const { return bytes_; }

@@ -62,7 +62,7 @@ const std::string kMirror =
 TEST(CameraMounting, TellsHowAnImageCameraLeans) {
   const CameraTilt tilt{.roll_rad = 0.03, .pitch_rad = -0.02};
   const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(), z = Eigen::Vector3d::UnitZ();
-  // A body's frame, an optical one that looks up with its top to the left, a body's frame that looks up.
+  // Camera frames: x ahead; rotated about the vertical axis; x up.
   for (const Eigen::Matrix3d& frame :
        {Eigen::Matrix3d(Eigen::Matrix3d::Identity()), turned(1.2, z), turned(-kPi / 2.0, y)}) {
     const CameraMounting mounting{"base_link", "camera", {0.0, 0.0, 0.9}, tilt.R_level_camera() * frame};
@@ -82,7 +82,7 @@ TEST(CameraMounting, TellsHowAnImageCameraLeans) {
   EXPECT_FALSE(rig_with(leaning, "[camera]\nmodel = \"bearings\"\n")) << "whose bearings are level";
 }
 
-/// The rig's yaw comes after its lean.
+/// The rig applies the tilt first and the yaw second.
 TEST(CameraMounting, LeansBeforeItTurns) {
   const CameraTilt tilt{.roll_rad = 0.03, .pitch_rad = -0.02};
   const CameraMounting mounting{

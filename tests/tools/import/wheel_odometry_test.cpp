@@ -12,8 +12,7 @@ namespace {
 
 constexpr double kTrack_m = 0.4;
 
-/// What both wheels have counted on a drive that stands, goes straight, turns either way and reverses: in metres, 10
-/// Hz.
+/// Distances rolled by both wheels [m] at 10 Hz. The robot stands, drives straight, turns both ways and reverses.
 std::vector<WheelReading> drive(double seconds = 120.0) {
   std::vector<WheelReading> readings;
   double left_m = 0.0, right_m = 0.0;
@@ -27,7 +26,7 @@ std::vector<WheelReading> drive(double seconds = 120.0) {
   return readings;
 }
 
-/// A counter from `least` on, `range` counts long.
+/// The reading of a counter that wraps: it runs from `least` and has `range` counts.
 double counted(double rolled_m, double count_m, double least, double range, bool whole) {
   const double counts = whole ? std::round(rolled_m / count_m) : rolled_m / count_m;
   const double beyond = std::fmod(counts - least, range);
@@ -55,7 +54,7 @@ struct Counter {
   double count_m, least, range;
   bool whole;
 };
-/// What `name`s a counter in a test's output.
+/// Prints the name of a counter in the output of a test.
 std::ostream& operator<<(std::ostream& out, const Counter& counter) { return out << counter.name; }
 
 class Counters : public testing::TestWithParam<Counter> {};
@@ -119,7 +118,7 @@ TEST(WheelOdometry, RefusesStepsThatNoWheelMakes) {
 
 TEST(WheelOdometry, RefusesACounterThatWrapsBetweenTwoReadings) {
   std::vector<WheelReading> readings;
-  for (int i = 0; i < 200; ++i) {  // 100 of 256 counts a reading
+  for (int i = 0; i < 200; ++i) {  // 100 of 256 counts per reading
     const double rolled_m = 0.005 * ((100 * i) % 256);
     readings.push_back({stamp_from_us(1'000'000 * std::int64_t{i}), rolled_m, rolled_m});
   }

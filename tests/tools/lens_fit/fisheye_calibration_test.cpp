@@ -1,4 +1,4 @@
-// Fisheyes of recorded drives.
+// Tests the calibration of a fisheye lens on a recorded drive.
 
 #include "tools/lens_fit/fisheye_calibration.hpp"
 
@@ -21,7 +21,7 @@ class HallA : public testing::Test {
     AZIMUTH_REQUIRE_DATA("hall-a");
     run_ = *load_run(test::data_folder() / "hall-a");
     rig_ = *read_rig(run_.rig_toml, run_.rig_file);
-    rig_.odometry.sigma_scale_distance = 0.01;  // as measured: a lens is as long as what is driven below lamps
+    rig_.odometry.sigma_scale_distance = 0.01;  // the measured value; the focal length scales with the driven distance
   }
   std::string problem_of(const FisheyeRequest& request = {}) const {
     std::string problem;
@@ -38,7 +38,8 @@ FisheyeRequest with_height(double lamp_height_m) {
   return request;
 }
 
-/// The greatest distance in the image between what two cameras make of directions down to where lamps were seen.
+/// The greatest distance in the image between the pixels of one direction in two cameras, over all directions within
+/// `theta_max_rad` of the optical axis.
 double farthest_apart_px(const Rig& one, const Rig& other, double theta_max_rad) {
   std::string problem;
   const auto a = camera_of(one.camera, problem), b = camera_of(other.camera, problem);
@@ -67,7 +68,7 @@ TEST_F(HallA, ALensThatIsOffIsFound) {
       "hall-a: residual {:.3f} px, {:.0f} % fit, centre ({:.2f}, {:.2f}), {:.2f} px from the true lens at most\n",
       found->solution.rms_px(), 100.0 * found->solution.fitting(), found->solution.lens.axes.centre_px.x(),
       found->solution.lens.axes.centre_px.y(), apart_px);
-  // THEN residuals are below a pixel
+  // THEN the RMS residual is at most one pixel
   EXPECT_LE(found->solution.rms_px(), 1.0);
   EXPECT_GT(found->solution.fitting(), 0.8);
   EXPECT_NEAR(found->solution.lens.axes.centre_px.x(), 384.0, 1.5);

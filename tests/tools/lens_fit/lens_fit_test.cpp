@@ -11,7 +11,7 @@
 namespace azimuth {
 namespace {
 
-/// 3 % off in its coefficients, 8 px in its centre.
+/// A lens whose coefficients are 3 % off and whose centre is 8 px off.
 Lens perturbed(Lens lens) {
   lens.axes.centre_px += Pixel(6.0, -5.3);
   const std::array<double, 4> by{1.03, 0.97, 1.03, 1.03};
@@ -44,7 +44,7 @@ TEST(LensFit, FindsAKnownLensFromAWrongOne) {
         << theta;
 }
 
-/// By a drive that does not know of it: what a tilt does is not all taken for a centre that is elsewhere.
+/// The priors do not contain the tilt. The fit must not explain the tilt by a shifted centre.
 TEST(LensFit, FindsHowTheLensLeans) {
   for (const CameraTilt& tilt : {CameraTilt{}, CameraTilt{0.035, 0.0}, CameraTilt{-0.012, 0.02}}) {
     auto drive = test::simulated_lens_drive({.tilt = tilt});
@@ -75,7 +75,7 @@ TEST(LensFit, EquationsAreThoseOfDifferences) {
   auto drive = test::simulated_lens_drive({.seed = 3, .frames = 20, .lamps = 5, .tilt = {0.03, -0.05}});
   drive.priors.sigma_tilt_rad = 0.05;
   LensFitStart map = map_lamps(drive.motions, drive.images, drive.truth.lens, 4.7, {});
-  for (LampObservation& each : map.drive.sightings) each.covariance_px2 *= 1e8;  // so that all weigh one
+  for (LampObservation& each : map.drive.sightings) each.covariance_px2 *= 1e8;  // robust weight 1
   const LensSolution& at = map.start;
   const LensEquations equations = lens_equations(map.drive, at, at, drive.priors);
   constexpr double kStep = 1e-6;

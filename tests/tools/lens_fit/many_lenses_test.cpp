@@ -1,4 +1,4 @@
-// Whether errors are what they are said to be.
+// Tests the consistency of the lens fit: the errors over many drives must agree with the covariance.
 
 #include <Eigen/Cholesky>
 #include <cmath>
@@ -30,7 +30,7 @@ TEST(ManyLenses, ErrorsAreWithinTwoStandardDeviations) {
     }
   }
   fmt::print("{} of {} numbers of lenses within two standard deviations, NEES {:.2f} of 1\n", within, all, nees);
-  EXPECT_GT(within, 0.88 * all);  // 95.4 % expected, of 40 independent drives
+  EXPECT_GT(within, 0.88 * all);  // 95.4 % are expected over 40 independent drives
   EXPECT_LT(nees, 1.6);
 }
 

@@ -5,10 +5,10 @@
 
 namespace azimuth::test {
 
-/// A drive below lamps through a known lens, with noise of pixels, odometry and heights as claimed.
+/// A drive below lamps, seen through a known lens. The noise of pixels, odometry and heights agrees with the priors.
 struct SimulatedLensDrive {
   LensSolution truth;
-  LensPriors priors;  ///< with the height as it was measured
+  LensPriors priors;  ///< With the measured height of the lamps.
   std::vector<Motion> motions;
   std::vector<SeenLamps> images;
 };
@@ -22,7 +22,7 @@ struct LensDriveOptions {
 
 SimulatedLensDrive simulated_lens_drive(const LensDriveOptions& options);
 
-/// r = 238 px theta, nearly, as a polynomial.
+/// A polynomial lens with a radius of about 238 px per rad of theta.
 Lens known_lens();
 
 }  // namespace azimuth::test

@@ -1,4 +1,4 @@
-// The catalogue of a folder's field logs: what it says of them, what it reads again, and what it refuses.
+// Tests the index of the field logs in a folder: its columns, which logs it reads again, and which ones it refuses.
 
 #include <chrono>
 #include <fstream>
@@ -25,7 +25,7 @@ class LogIndex : public testing::Test {
     fs::create_directories(folder_ / name);
     return folder_ / name;
   }
-  /// Ten seconds, nine of them tracking, over twenty metres; by two segments.
+  /// A drive of ten seconds and twenty metres in two segments. Its health is "tracking" for nine seconds.
   fs::path drive(const std::string& name, const std::string& prefix = "") {
     const fs::path path = session(name);
     RecordedLog(path / "000.lcm", prefix).mark(0).documents().pose(0, 0, kTracking).pose(4, 10, kTracking);
@@ -42,7 +42,7 @@ class LogIndex : public testing::Test {
     const FileResult<IndexResult> result = index_logs(folder, file_);
     return result ? "" : text(result.error());
   }
-  /// The first column of the first row; "NULL" for what is unknown.
+  /// The first column of the first row of the answer; "NULL" for an unknown value.
   std::string ask(const std::string& sql) {
     sqlite3* database = nullptr;
     sqlite3_stmt* statement = nullptr;
@@ -108,7 +108,7 @@ TEST_F(LogIndex, CountsPredictedPosesForTimeButNotForTheBox) {
       .documents()
       .pose(0, 0, kTracking)
       .pose(2, 4, kTracking, true)
-      .pose(1.9, 3.8, kTracking)  // a step that is older than the prediction before it
+      .pose(1.9, 3.8, kTracking)  // this step is older than the prediction before it
       .pose(4, 4, kLost, true);
   index();
   EXPECT_EQ(of("one.lcm", "poses"), "2");
@@ -202,7 +202,7 @@ TEST_F(LogIndex, PassesOverPosesThatCannotBe) {
       .pose(1, std::numeric_limits<double>::quiet_NaN(), kTracking)
       .pose(2, 1e300, kTracking)
       .pose(3, 3, kTracking)
-      .pose(-4000, 3, kTracking)  // a clock put back
+      .pose(-4000, 3, kTracking)  // the clock was set back
       .pose(-3999, 4, kTracking);
   index();
   EXPECT_EQ(of("one.lcm", "distance_m"), "4.0");

@@ -1,5 +1,5 @@
 #pragma once
-// Field logs as a daemon writes them, event by event.
+// Writes field logs like a daemon, event by event.
 
 #include <filesystem>
 #include <gtest/gtest.h>

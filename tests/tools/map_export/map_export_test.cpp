@@ -16,11 +16,11 @@ using Json = nlohmann::json;
 
 TEST(MapCsv, HasALineForEachLandmarkWithItsOwnCovariance) {
   MapSnapshot map = random_map(1, {2, 1, 0, true});
-  map.landmarks[1].z_map_landmark_m = std::nan("");  // a map may have both
+  map.landmarks[1].z_map_landmark_m = std::nan("");  // a map may have landmarks with and without height
   map.landmarks[1].kind = kAnyKind;
   map.covariance.resize(map.entries());
   for (std::size_t i = 0; i < map.entries(); ++i) map.covariance(i, i) = 0.25 * static_cast<double>(i);
-  map.covariance(6, 4) = 0.125;  // x and z of the first
+  map.covariance(6, 4) = 0.125;  // covariance of x and z of the first landmark
   map.landmarks[0] = {.id = 7, .kind = 2, .sightings = 31, .p_map_landmark_m = {1.5, -2.0}, .z_map_landmark_m = 3.0};
   map.landmarks[1].id = 9;
   map.landmarks[1].sightings = 4;
@@ -69,7 +69,7 @@ TEST(MapGeoJson, ALocalFrameIsNotTakenForWgs84) {
 
 TEST(MapGeoJson, LongitudesStayWithinAHalfTurn) {
   MapSnapshot map = random_map(8, {2, 0, 0, false});
-  map.landmarks[0].p_map_landmark_m = {0.0, -1000.0};  // y points west, so this one is east
+  map.landmarks[0].p_map_landmark_m = {0.0, -1000.0};  // the y axis points west, so this landmark lies in the east
   map.landmarks[1].p_map_landmark_m = {0.0, 1000.0};
   const auto longitude_deg = [&](double origin_deg, std::size_t landmark) {
     const Json json = Json::parse(map_geojson(map, MapOrigin{0.0, origin_deg, 0.0}));
@@ -82,7 +82,7 @@ TEST(MapGeoJson, LongitudesStayWithinAHalfTurn) {
 
 TEST(MapGeoJson, DrawsTheEllipseOfOneStandardDeviation) {
   MapSnapshot map = random_map(3, {1, 0, 0, false});
-  map.covariance(3, 3) = map.covariance(4, 4) = 0.05;  // axes along the diagonals
+  map.covariance(3, 3) = map.covariance(4, 4) = 0.05;  // the axes of the ellipse lie along the diagonals
   map.covariance(4, 3) = 0.04;
   const Json ellipse = Json::parse(map_geojson(map, std::nullopt))["features"][0]["properties"]["ellipse"];
   EXPECT_NEAR(ellipse["semi_major_m"].get<double>(), 0.3, 1e-9);
@@ -98,7 +98,8 @@ TEST(MapGeoJson, PutsTheMapOnTheGlobe) {
     const Json json = Json::parse(map_geojson(map, origin));
     return json["features"][static_cast<std::size_t>(feature)]["geometry"]["coordinates"];
   };
-  // A degree of latitude is 110574 m long at the equator and 111132 m at 45 degrees, where one of longitude is 78847 m.
+  // One degree of latitude is 110574 m long at the equator and 111132 m at 45 degrees. At 45 degrees, one degree of
+  // longitude is 78847 m long.
   const MapOrigin north{0.0, 10.0, 0.0}, east{45.0, 10.0, 90.0};
   EXPECT_NEAR(coordinates(north, 0)[1].get<double>(), 1000.0 / 110574.0, 1e-7) << "x points north";
   EXPECT_NEAR(coordinates(north, 1)[0].get<double>(), 10.0 - 1000.0 / 111320.0, 1e-7) << "y points west";

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Opens pages that azimuth replay --html wrote in a browser without a window: everything is drawn, nothing is refused by the
-page's own policy, and no script fails.
+"""Opens pages of `azimuth replay --html` in a headless browser. Everything must be drawn, the page's security policy
+must refuse nothing, and no script may fail.
 
-usage: browser_test.py AZIMUTH RUNS      exit code 0: so it is, 1: not, 77: there is no chromium here
+usage: browser_test.py AZIMUTH RUNS      exit code 0: good, 1: not, 77: chromium is missing
 """
 
 import re
@@ -14,7 +14,8 @@ from pathlib import Path
 
 KEPT_S = 20.0
 
-# Does what a person does, and writes what came of it into the document. Runs without the page's policy, which would refuse it.
+# Simulates a user's input and writes the result into the document. The page's policy is removed, because it would
+# refuse this script.
 STEERING = """
 window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), 1);  // a window that is not there has few frames
 const said = [];
@@ -58,7 +59,7 @@ addEventListener('load', async () => {
 
 
 def short_run(runs, name, folder, as_name):
-    """The first seconds of a shipped run, under a name that tries to get out of its quotes."""
+    """Copies the first KEPT_S seconds of a shipped run; `as_name` contains characters that test the escaping."""
     run = folder / as_name
     shutil.copytree(runs / name, run)
     for table in ("odometry", "bearings", "truth"):

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""azimuth-sim, azimuthd and `azimuth view` as processes, and a browser without a window before them: whatever goes away, a cable, the
-robot, the daemon or the server, the page says so within two seconds and goes on by itself when it is back, on the same map.
+"""Runs azimuth-sim, azimuthd and `azimuth view` as processes with a headless browser. When a cable, the robot, the
+daemon or the server goes away, the page must say so within two seconds and continue on the same map when it is back.
 
 usage: cable_in_browser_test.py SOURCE_TREE AZIMUTH AZIMUTHD AZIMUTH_SIM SCREENSHOT [BUSY]
-BUSY: so many processes do nothing but keep the processors busy all the while.
-In a network namespace whose loopback carries multicast. Exit code 0: so it is, 1: not, 77: there is no browser here.
+BUSY: number of processes that keep the processors busy during the test.
+Needs a network namespace whose loopback interface carries multicast. Exit code 0: good, 1: not, 77: the browser is missing.
 """
 
 import contextlib
@@ -24,8 +24,8 @@ import web_driver
 TREE, AZIMUTH, AZIMUTHD, AZIMUTH_SIM, SCREENSHOT = (Path(each) for each in sys.argv[1:6])
 BUSY = int(sys.argv[6]) if len(sys.argv) > 6 else 0
 SAYS_WITHIN_S = 2.0
-PATIENCE_S = 30.0  # for what is not promised to be quick
-OUT_S = 4          # of a cable
+PATIENCE_S = 30.0  # for events without a promised delay
+OUT_S = 4          # duration for which a cable is out
 
 VIEW = "window.azimuthView"
 BANNER = "document.querySelector('.banner')"
@@ -39,7 +39,7 @@ def says(words):
 
 
 class Robot:
-    """azimuth-sim; one that is started later is reached at the same places."""
+    """Runs azimuth-sim. A later instance in the same folder has the same device, sockets and run folder."""
 
     def __init__(self, folder, run="drive"):
         self.folder = folder
@@ -74,7 +74,8 @@ def start_daemon(folder, rig):
 
 
 def goes_away(browser, what, take_away, words, bring_back=lambda: None):
-    """It is said in time, and over by itself once it is back; nobody takes it for another daemon, or loses the way."""
+    """Removes a part with `take_away` and brings it back. The page must say so in time and recover by itself, without
+    taking the daemon for a new one and without losing the path."""
     points = browser.run(f"return {VIEW}.store.poses.length")
     browser.until(WELL, PATIENCE_S, f"{what}: all is well before")
     take_away()
@@ -90,7 +91,8 @@ def goes_away(browser, what, take_away, words, bring_back=lambda: None):
 
 
 def used_as_expected(browser):
-    """[azimuth seen, azimuth expected, gate] of the bearings shown that were used, where the daemon itself said what it expected."""
+    """Returns [observed azimuth, expected azimuth, gate] of the shown bearings that were used, if the expectations come
+    from the daemon."""
     return browser.run(f"""const {{ own, bearings, expected }} = {VIEW}.store.bearings ?? {{}};
       const of = new Map((own ? expected : []).map((row) => [row[0], row]));
       return (bearings ?? []).filter((row) => row[4] === 'used' && of.has(row[5])).map((row) => [row[0], of.get(row[5])[1], of.get(row[5])[4]]);""")
@@ -119,7 +121,7 @@ def watched(browser, folder, robot, view):
     daemon = start_daemon(folder, robot.rig)
     yield daemon
     browser.until(f"{VIEW}?.store.map.landmarks.length > 8 && {VIEW}.store.pose?.health === 1", PATIENCE_S, "it has a map")
-    browser.complaints()  # of the page that a browser begins with
+    browser.complaints()  # drops the messages of the browser's start page
     if browser.run(f"return {VIEW}.link.begin") < -1.0:
         raise AssertionError("time begins before the drive does")
     for fault in ("unplug", "silence"):

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Opens a page that azimuth compare --html wrote in a browser without a window: what is missing is named, everything is drawn,
-a column that is clicked sorts, nothing is refused by the page's own policy, and no script fails.
+"""Opens a page of `azimuth report compare --html` in a headless browser. It must name missing runs, draw everything and
+sort by a clicked column. Its security policy must refuse nothing, and no script may fail.
 
-usage: compare_page_test.py AZIMUTH      exit code 0: so it is, 1: not, 77: there is no chromium here
+usage: compare_page_test.py AZIMUTH      exit code 0: good, 1: not, 77: chromium is missing
 """
 
 import json
@@ -15,9 +15,10 @@ from pathlib import Path
 
 from browser_test import opened
 
-ROGUE = "<script>'\"&"  # a name that tries to get out of its quotes
+ROGUE = "<script>'\"&"  # a name that tests the escaping
 
-# Does what a person does, and writes what came of it into the document. Runs without the page's policy, which would refuse it.
+# Simulates a user's input and writes the result into the document. The page's policy is removed, because it would
+# refuse this script.
 STEERING = """
 window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), 1);
 const said = [];

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""`azimuth view` beside azimuthd, both as processes, watched in a browser without a window from before the drive to its end: the robot
-stands where another subscriber heard that it is, the end is told, a daemon that is started anew is followed, and nothing comes to the
-browser's console.
+"""Runs `azimuth view` and azimuthd as processes with a headless browser, from before the drive to its end. The page
+must show the robot at the pose that another subscriber received, tell the end of the drive and follow a restarted
+daemon. The browser's console must stay empty.
 
 usage: daemon_in_browser_test.py SOURCE_TREE AZIMUTH AZIMUTHD LISTEN SCREENSHOT
-In a network namespace whose loopback carries multicast. Exit code 0: so it is, 1: not, 77: there is no browser here.
+Needs a network namespace whose loopback interface carries multicast. Exit code 0: good, 1: not, 77: the browser is missing.
 """
 
 import math
@@ -18,7 +18,7 @@ import web_driver
 
 TREE, AZIMUTH, AZIMUTHD, LISTEN, SCREENSHOT = (Path(each) for each in sys.argv[1:6])
 NEAR_M, NEAR_RAD = 0.05, math.radians(2.0)
-PATIENCE_S = 20.0  # a machine with other things to do is slow; how fast it is at best stands in docs/results.md
+PATIENCE_S = 20.0  # generous for a busy machine; docs/results.md has the measured delay
 
 SHOWN = "window.azimuthView.map.shownPose()"
 BANNER = "document.querySelector('.banner')"
@@ -31,7 +31,7 @@ def play():
 
 
 def last_heard(heard):
-    """x [m], y [m], heading [rad] of the newest pose that the other subscriber got."""
+    """Returns x [m], y [m] and heading [rad] of the newest pose that the other subscriber received."""
     x, y, heading = STEP.findall(heard.read_text())[-1]
     return float(x), float(y), float(heading)
 
@@ -50,7 +50,7 @@ def wrong_with_marker(browser, heard):
 
 def watched(browser, address, heard):
     browser.open(address)
-    browser.complaints()  # of the page that a browser begins with
+    browser.complaints()  # drops the messages of the browser's start page
     for drive in ("the first drive", "the daemon started anew"):
         play()
         yield from (f"{drive}: {words}" for words in wrong_with_marker(browser, heard))

@@ -1,6 +1,6 @@
-"""Stands in for `azimuth view` where only the page is under test: speaks its events, and goes wrong when told to.
+"""Replaces `azimuth view` in tests of the page: it sends the same events, and faults on request.
 
-As a program: fake_view.py PAGE_FOLDER [PORT [PICTURE.jpg]]    serves a synthetic drive until it is ended
+As a program: fake_view.py PAGE_FOLDER [PORT [PICTURE.jpg]]    serves a synthetic drive until the program is ended
 """
 
 import json
@@ -18,21 +18,22 @@ POLICY = ("default-src 'none'; script-src 'self'; style-src 'self'; img-src 'sel
           "form-action 'none'; frame-ancestors 'none'")
 TYPES = {".html": "text/html", ".js": "text/javascript", ".css": "text/css"}
 PERIOD_S = 1.0 / 30.0
-# Of runs/mirror, whose pictures may be shown.
+# The camera of runs/mirror, because its pictures may be shown.
 IMAGE = {"width": 512, "height": 384, "centre": [255.5, 191.5], "beta": 1.0, "direction": -1, "offset": -math.pi / 2, "inner": 30.0, "outer": 188.0}
 
 
 class FakeView:
-    """`robot`: drives from `past_s` ago on, and `points` poses of that time are known. `run`: the object of a recorded run."""
+    """`robot` is a robot that started `past_s` ago, with a trail of `points` poses. `run` is the object of a recorded
+    run."""
 
     def __init__(self, page, robot=None, run=None, past_s=0.0, points=0, picture=None, port=0, speed=1.0):
         self.page, self.robot, self.run, self.picture = Path(page), robot, run, picture
         self.past_s, self.points, self.speed = past_s, points, speed
         self.began_s = time.monotonic() - past_s / speed
-        self.silent = False          # nothing comes from the daemon
-        self.stalled = False         # nothing comes from the server
-        self.refusal = ""            # a plain sentence instead of the stream
-        self.extra = []              # [(event, text)] to be sent as they stand
+        self.silent = False          # the daemon sends nothing
+        self.stalled = False         # the server sends nothing
+        self.refusal = ""            # a sentence that replaces the stream
+        self.extra = []              # [(event, text)] to be sent unchanged
         self.streams = set()
         self.port = port
         self.server = None
@@ -57,7 +58,7 @@ class FakeView:
         return f"http://127.0.0.1:{self.port}/"
 
     def stop(self):
-        """As if the program had been killed; start() brings it back at the same port."""
+        """Stops like a killed program; start() serves again at the same port."""
         self.server.shutdown()
         self.server.server_close()
         for connection in list(self.streams):
@@ -70,7 +71,7 @@ class FakeView:
         return (time.monotonic() - self.began_s) * self.speed
 
     def restart_daemon(self):
-        """A new one, whose time and counters begin anew; the looker is told."""
+        """Simulates a new daemon, whose time and counters start again; the page is told."""
         self.began_s, self.past_s, self.points = time.monotonic(), 0.0, 0
         self.robot.seq = 0
         told = {"t": None, "text": "the daemon started anew, or its recording did", "level": "info", "sent_us": int(time.time() * 1e6)}
@@ -142,7 +143,8 @@ class FakeView:
         request.wfile.write(f"event: {event}\nid: 1\ndata: {text}\n\n".encode())
 
     def drive(self, request):
-        """30 poses a second, 15 images' bearings, the map and the status once a second."""
+        """Sends 30 poses per second, the bearings of 15 images per second, and the map and the status once per
+        second."""
         beat, quiet_since, next_s = 0, None, time.monotonic()
         while True:
             next_s = max(next_s + PERIOD_S, time.monotonic() - 1.0)

@@ -85,7 +85,7 @@ TEST(PageFiles, EachStandsAfterThoseItImports) {
   }
 }
 
-/// What a page's attribute names, one after the other.
+/// All values that the page gives to an attribute, in order.
 std::vector<std::string> values_of(const std::string& page, const std::string& attribute) {
   std::vector<std::string> values;
   const std::string begin = ' ' + attribute + "=\"";

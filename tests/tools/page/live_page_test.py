@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""The live page in a browser without a window, before a stand-in for the server: it shows where the robot is, answers keys and
-pointer, says what is wrong within two seconds, goes on by itself, and writes nothing to the browser's console.
+"""Opens the live page in a headless browser with a stand-in for the server. The page must show the robot's pose, answer
+keys and pointer, name faults within two seconds, recover by itself and write nothing to the browser's console.
 
-usage: live_page_test.py PAGE_FOLDER SCREENSHOTS [JPEG]      exit code 0: so it is, 1: not, 77: there is no browser here
-With $AXE_CORE, the file axe.min.js of the npm package axe-core: its findings too.
+usage: live_page_test.py PAGE_FOLDER SCREENSHOTS [JPEG]      exit code 0: good, 1: not, 77: the browser is missing
+If $AXE_CORE names the file axe.min.js of the npm package axe-core, its findings count too.
 """
 
 import json
@@ -80,7 +80,7 @@ def distance_is_measured(browser):
 
 
 def two_fingers(browser):
-    """Apart: larger; round each other: turned."""
+    """Two fingers that move apart enlarge the map; fingers that move round each other turn it."""
     left, top = browser.run(f"const box = {MAP}.canvas.getBoundingClientRect(); return [box.left + box.width / 2, box.top + box.height / 2]")
     before = browser.run(f"return [{MAP}.view.scale, {MAP}.view.turn]")
     browser.devtools("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=2)
@@ -96,7 +96,7 @@ def two_fingers(browser):
 
 
 def long_ways_are_thinned(browser):
-    """Their older half, in order, with its ends."""
+    """The page thins the older half of a long path; it must keep the order and both ends."""
     found = browser.run("""
       const { Columns } = await import('/modules/columns.js'), columns = new Columns(['t', 'x'], 1000), before = columns.generation;
       for (let i = 0; i < 1750; ++i) columns.push(i, i % 7 ? i : null);
@@ -208,7 +208,7 @@ def garbage_is_left_out(view, browser):
 
 
 def burst(view, browser):
-    """As after a laptop's lid was opened again."""
+    """Sends many late events at once, as after a suspended laptop wakes up."""
     poses = [view.robot.pose(view.now() + 1e-4 * i, int(time.time() * 1e6)) for i in range(3000)]
     view.extra += [("pose", json.dumps(pose)) for pose in poses] + [("missed", '{"n": 12}')]
     browser.until("window.azimuthView.store.missed === 12", 5 * PATIENCE, "all of a burst is read")
@@ -266,7 +266,7 @@ def problems(page, screenshots, picture):
             server_goes_and_comes(view, browser)
         except AssertionError as error:
             yield str(error)
-        # That nothing answers is the browser's own to say; whatever else there is, is not.
+        # The browser itself reports requests without an answer; any other message is a fault.
         yield from (f"console: {words}" for words in browser.complaints() if "Failed to load resource" not in words)
 
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Checks the page's modules: each import names what the other file exports, no name stands twice at the top of files that are
-joined into one, and, where node is, that a browser can read them.
+"""Checks the page's modules: each import names an export of the other file, no top-level name is defined twice in the
+files that are joined into one, and, if node is installed, the syntax is valid.
 
-usage: modules_test.py FOLDER      exit code 0: clean, 1: not, 77: clean as far as can be told without node
+usage: modules_test.py FOLDER      exit code 0: clean, 1: not, 77: clean, but node is missing
 """
 
 import json
@@ -39,7 +39,7 @@ def joined(modules):
     return "\n".join(re.sub(r"^export ", "", IMPORT.sub("", text), flags=re.M) for text in modules.values())
 
 
-# One start of node for all of them.
+# One process of node reads all modules.
 READER = """
 const vm = require('node:vm');
 let text = '';

@@ -1,8 +1,8 @@
-"""What the live page has to show of events that the stand-in for the server sends, part by part."""
+"""Checks of the single parts of the live page, with events from the stand-in for the server."""
 
 import os
 
-PATIENCE = float(os.environ.get("AZIMUTH_TEST_PATIENCE", "3"))  # a machine with other things to do is given longer
+PATIENCE = float(os.environ.get("AZIMUTH_TEST_PATIENCE", "3"))  # longer on a busy machine
 
 
 def expect(condition, words):
@@ -11,7 +11,7 @@ def expect(condition, words):
 
 
 def pictures_are_unrolled(view, browser):
-    """Ahead is up in the image of a mirror's camera that is 100 pixels wide, left is left; a margin is round it."""
+    """In the image of a mirror camera, 100 pixels wide plus a margin, ahead is up and left is left."""
     ahead, left, behind = browser.run("""
       const { pixelIndices, columns } = await import('/modules/unrolled.js');
       const found = pixelIndices({ centre: [50, 50], beta: 1, direction: -1, offset: -Math.PI / 2, inner: 10, outer: 40, margin: 5, width: 110, height: 110, looksUp: false });
@@ -39,7 +39,7 @@ def honesty_is_charted(browser):
 
 
 def a_lost_robot_has_names_alone(browser):
-    """Where it is nobody knows, nor where landmarks should be seen: what the camera calls them is shown."""
+    """A lost robot has no pose and no expected bearings, so the panorama shows only the identities from the camera."""
     words = "document.querySelector('.panorama').textContent"
     shown = browser.run(f"""
       const {{ store }} = window.azimuthView, {{ LiveStore }} = await import('/modules/live_store.js'), lost = new LiveStore();
@@ -64,7 +64,7 @@ def doubted_landmarks_are_told_apart(browser):
     expect(["doubted", 2] in kinds and ["confirmed", 0] in kinds, f"{kinds}")
 
 
-# What a canvas is told to write while it is drawn: [words, left, top, right, bottom] of each number.
+# Records the texts that are drawn on a canvas: [words, left, top, right, bottom] of each number.
 WRITTEN = """
   const written = (context, draw) => {
     const boxes = [];
@@ -82,7 +82,7 @@ WRITTEN = """
 
 
 def names_stand_apart(browser):
-    """On the map, also where landmarks stand close together, and above the bands of the panorama, also where these lie upon each other."""
+    """Labels do not overlap, on the map with landmarks close together and above overlapping bands of the panorama."""
     names, crowded, touching = browser.run(WRITTEN + """
       const { map, store } = window.azimuthView, held = store.map, context = Object.assign(document.createElement('canvas'), { width: 700, height: 600 }).getContext('2d');
       context.font = map.surface.context.font;
@@ -106,7 +106,7 @@ def names_stand_apart(browser):
 
 
 def numbers_are_short(browser):
-    """They count the landmarks of the map; the id that files have is told where one points."""
+    """Landmarks are numbered in the order of the map; the tooltip shows the id that files use."""
     ids, labels, named = browser.run("""
       const { numbersOf } = await import('/modules/live_store.js'), { landmarks } = window.azimuthView.store.map;
       return [landmarks.map(({ id }) => id), landmarks.map(({ label }) => label), [...numbersOf([7, 5], true).values()]];""")
@@ -132,7 +132,7 @@ def tools_hide_no_map(browser):
 
 
 def rays_are_told_from_the_way(browser):
-    """By their hue, in both schemes."""
+    """Rays and path have different hues in both colour schemes."""
     for scheme in ("light", "dark"):
         browser.scheme(scheme)
         way, ray = browser.run("""

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""The report's page where `azimuth view` serves it with its data apart: a run, two runs, a map alone, a server that refuses. Without a
-message on the browser's console.
+"""Opens the report's page as `azimuth view` serves it, with separate data: one run, two runs, a map alone, and a server
+that refuses. The browser's console must stay empty.
 
-usage: recorded_page_test.py AZIMUTH RUNS PAGE_FOLDER SCREENSHOTS      exit code 0: so it is, 1: not, 77: there is no browser here
+usage: recorded_page_test.py AZIMUTH RUNS PAGE_FOLDER SCREENSHOTS      exit code 0: good, 1: not, 77: the browser is missing
 """
 
 import json
@@ -21,7 +21,7 @@ BAR = "document.querySelector('.bar input')"
 
 
 def data_of(azimuth, runs, folder):
-    """What replay embeds is what is served."""
+    """Returns the data that `azimuth replay` embeds in its page, which `azimuth view` serves separately."""
     page = Path(folder) / "page.html"
     subprocess.run([azimuth, "replay", *runs, "--quiet", "--html", page], check=True)
     text = page.read_text(encoding="utf-8")
@@ -29,7 +29,7 @@ def data_of(azimuth, runs, folder):
 
 
 def map_alone(run):
-    """As of a map file: no column has a row."""
+    """Turns the data of a run into those of a map file, whose columns have no rows."""
     series = {name: [] for name in run["series"]}
     return {**run, "name": "hall.map", "steps": 0, "metrics": [], "series": series, "health": [], "pictures": [], "starts_at_us": 0}
 

@@ -1,15 +1,15 @@
-"""A robot that was never built, in the words of the events that `azimuth view` sends: for tests of the page and films of it."""
+"""A synthetic robot that gives the events of `azimuth view`, for tests and films of the page."""
 
 import math
 import random
 
-# Of the first landmark: as many before it did not stay in the map.
+# Id of the first landmark; the landmarks with smaller ids have left the map.
 FIRST_ID = 100
 HEALTHS = {"starting": 0, "tracking": 1, "degraded": 2, "lost": 3}
 
 
 class SyntheticRobot:
-    """Drives a clover through a hall of landmarks; all it says follows from the time in seconds."""
+    """Drives a clover-shaped path in a hall of landmarks. All its data are functions of the time in seconds."""
 
     def __init__(self, landmarks=24, size_m=9.0, seed=1, lamps=False):
         self.random = random.Random(seed)
@@ -41,7 +41,7 @@ class SyntheticRobot:
         return x + 0.7 * sigma * math.sin(0.9 * t), y + 0.6 * sigma * math.cos(0.7 * t), heading + 0.01 * math.sin(0.5 * t)
 
     def odometry(self, t):
-        """By wheels alone, from the first pose on: a heading that drifts."""
+        """The dead reckoning of the wheels from the first pose on, whose heading drifts."""
         x, y, heading = self.true_pose(t)
         drift = 0.0016 * t
         return x * math.cos(drift) - y * math.sin(drift), x * math.sin(drift) + y * math.cos(drift), heading + drift
@@ -56,7 +56,7 @@ class SyntheticRobot:
                 "odom": list(self.odometry(t)), "health": HEALTHS[self.health(t)]}
 
     def trail(self, times):
-        """Columns, in events of 5,000 rows each."""
+        """The path at the given times as columns, in events of 5,000 rows."""
         for begin in range(0, len(times), 5000):
             part = times[begin:begin + 5000]
             poses, odometry = [self.estimate(t) for t in part], [self.odometry(t) for t in part]
@@ -70,7 +70,7 @@ class SyntheticRobot:
         return {"t": t, "x": x, "y": y, "heading": heading}
 
     def known(self, t):
-        """Indices of landmarks that are in the map: they come one after the other."""
+        """Indices of the landmarks that are in the map at time `t`; they are added one after the other."""
         return range(min(len(self.landmarks), max(1, int(len(self.landmarks) * (t + 4.0) / 30.0))))
 
     def map(self, t):

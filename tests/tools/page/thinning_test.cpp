@@ -52,7 +52,7 @@ TEST(Thinning, StaysWithinItsBoundInOrderWithBothEnds) {
     }
 }
 
-// Of the whole, and of every stretch: what is drawn of a stretch reaches as far as what was measured in it.
+// The thinned series keeps the minimum and the maximum of every stretch, and therefore of the whole series.
 TEST(Thinning, KeepsTheExtremesOfEverySeries) {
   std::mt19937_64 random(8);
   for (int repetition = 0; repetition < 20; ++repetition) {

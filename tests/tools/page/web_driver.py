@@ -1,4 +1,4 @@
-"""A browser without a window, driven through chromedriver (W3C WebDriver over HTTP): no more of it than these tests use."""
+"""Drives a headless browser through chromedriver (W3C WebDriver over HTTP), with the commands that the tests use."""
 
 import base64
 import json
@@ -18,7 +18,7 @@ def is_here():
 
 
 class Browser:
-    """Thread contract: one thread. To be used in `with`."""
+    """A context manager that runs the browser. Thread contract: one thread."""
 
     def __init__(self, folder, width=1400, height=900):
         self.folder, self.width, self.height = folder, width, height
@@ -68,7 +68,7 @@ class Browser:
         self.ask("/url", {"url": address})
 
     def run(self, script, *arguments):
-        """Of the body of a function; what it returns, awaited where it is a promise."""
+        """Runs `script` as the body of a function and returns its result; a promise is awaited."""
         return self.ask("/execute/sync", {"script": script, "args": list(arguments)})
 
     def devtools(self, command, **parameters):
@@ -85,11 +85,11 @@ class Browser:
         file.write_bytes(base64.b64decode(self.ask("/screenshot", method="GET")))
 
     def complaints(self):
-        """What has come to the browser's console since the last call."""
+        """Returns the messages on the browser's console since the last call."""
         return [entry["message"] for entry in self.ask("/se/log", {"type": "browser"})]
 
     def until(self, condition, within_s, words=None):
-        """Seconds until the script's expression holds; raises when it does not within that time."""
+        """Waits until the script's expression is true and returns the seconds; raises after `within_s`."""
         begin_s = time.monotonic()
         while time.monotonic() - begin_s < within_s:
             if self.run(f"return Boolean({condition})"):

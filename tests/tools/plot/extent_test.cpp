@@ -12,7 +12,7 @@ TEST(Extent, GrowsWithItsPoints) {
   Extent extent;
   EXPECT_TRUE(extent.empty);
   extent.include(Eigen::Vector2d(5.0, 6.0));
-  EXPECT_EQ(extent.low_m, Eigen::Vector2d(5.0, 6.0));  // not stretched to the origin
+  EXPECT_EQ(extent.low_m, Eigen::Vector2d(5.0, 6.0));  // the extent does not include the origin
   extent.include(Eigen::Vector2d(-1.0, 8.0));
   extent.include(Eigen::Vector2d(NAN, 100.0));
   EXPECT_EQ(extent.low_m, Eigen::Vector2d(-1.0, 6.0));

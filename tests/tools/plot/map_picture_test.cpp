@@ -70,13 +70,13 @@ std::size_t count(const std::string& text, const std::string& part) {
   return found;
 }
 
-/// What an SVG of this picture says.
+/// The text of the SVG file of this picture.
 std::string svg_of(const MapPicture& picture, const std::filesystem::path& file) {
   EXPECT_EQ(write_map_picture(picture, file), std::nullopt);
   return bytes(file);
 }
 
-/// Strokes of a line like that of the odometry: one in the legend, one on the map.
+/// The stroke of the odometry line, which appears once in the legend and once on the map.
 constexpr const char* kOdometryStroke = "stroke:rgb(83.5%,36.9%,0%)";
 
 TEST_F(MapPictureFile, AnSvgIsMadeOfStrokes) {
@@ -118,7 +118,7 @@ TEST_F(MapPictureFile, NothingIsDrawnOutsideOfTheFrame) {
   MapPicture picture = made_picture();
   const std::size_t one = count(svg_of(picture, scratch("one.svg")), kOdometryStroke);
   EXPECT_EQ(one, 2U);
-  picture.odometry.insert(picture.odometry.begin() + 10, {1e6, 2e6});  // out and back again
+  picture.odometry.insert(picture.odometry.begin() + 10, {1e6, 2e6});  // the path leaves the frame and comes back
   EXPECT_EQ(count(svg_of(picture, scratch("two.svg")), kOdometryStroke), one + 1);
 }
 

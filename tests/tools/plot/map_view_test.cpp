@@ -13,7 +13,7 @@ UncertainPoint point(double x_m, double y_m, double sigma_m) {
   return {{x_m, y_m}, sigma_m * sigma_m * Eigen::Matrix2d::Identity()};
 }
 
-/// A robot drives from the origin to (10, 4) and back.
+/// The picture of a drive from the origin to (10, 4) and back.
 MapPicture drive() {
   MapPicture picture;
   picture.estimate = {{{{0.0, 0.0}, {10.0, 0.0}, {10.0, 4.0}, {0.0, 4.0}}, false}};

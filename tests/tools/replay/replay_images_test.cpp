@@ -1,4 +1,4 @@
-// A run of images through a replay: a handful of rendered frames, and a front end that is easy to foretell.
+// Replays a run with a few rendered images, with a front end whose output is easy to predict.
 
 #include <cstdint>
 #include <filesystem>
@@ -20,7 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One bearing of something that is driven past, off by a checksum of the pixels: any other image gives another one.
+/// Reports one bearing of a landmark that the robot passes. A checksum of the pixels shifts it slightly, so that each
+/// image gives a different bearing.
 class Checksum final : public Perception {
  public:
   explicit Checksum(PixelFormat expected) : expected_(expected) {}
@@ -39,7 +40,7 @@ class Checksum final : public Perception {
   int images_ = 0;
 };
 
-/// Sees nothing but the dark.
+/// Reports that every image is dark.
 class Blind final : public Perception {
  public:
   void observe(const ImageView&, BearingSet& out) override {
@@ -131,7 +132,7 @@ TEST_F(ReplayImages, GoOnAfterFramesThatCannotBeRead) {
   fs::remove(file_of(1));
   fs::resize_file(file_of(3), fs::file_size(file_of(3)) / 2);
   std::ofstream(file_of(4)) << "not an image";
-  std::ofstream(file_of(6)).flush();  // empties it
+  std::ofstream(file_of(6)).flush();  // empties the file
   const ReplayResult result = replayed(checksum());
   EXPECT_EQ(result.estimates.size(), 8u);
   EXPECT_EQ(result.images.troubles.at(ImageTrouble::unreadable), 4u);
@@ -143,7 +144,7 @@ TEST_F(ReplayImages, GoOnAfterFramesThatCannotBeRead) {
 }
 
 TEST_F(ReplayImages, PicturesShowEveryNthImageAndChangeNothing) {
-  fs::resize_file(file_of(3), 10);  // drawn black
+  fs::resize_file(file_of(3), 10);  // the truncated image is drawn black
   const fs::path folder = folder_.path() / "pictures";
   fs::create_directory(folder);
   PictureFolder pictures(run_, rig_.camera, folder, 3);

@@ -159,7 +159,7 @@ TEST(Summary, SaysWhatToAskWhereLittleWasTracked) {
   HealthReport& health = outcome.report.health_over_time;
   health.times[static_cast<std::size_t>(Health::tracking)].share = 0.2;
   EXPECT_NE(summary(outcome.run, outcome.result, outcome.report).find("azimuth check"), std::string::npos);
-  outcome.report.input_trouble = "stamps look like milliseconds";  // that comes first
+  outcome.report.input_trouble = "stamps look like milliseconds";  // this hint has priority
   EXPECT_EQ(summary(outcome.run, outcome.result, outcome.report).find("azimuth check"), std::string::npos);
 }
 
@@ -168,9 +168,10 @@ TEST(Summary, EndsWithWhatToAskWhereErrorsAreLargerThanSaid) {
   ASSERT_GE(outcome.report.tracking_consistency.evaluated, 20u);
   outcome.report.tracking_consistency.anees = 9.0;
   const std::string text = summary(outcome.run, outcome.result, outcome.report, "runs/mine");
-  EXPECT_NE(text.find("(ANEES 9.0 while tracking, 3 is ideal): `azimuth check runs/mine` says"), std::string::npos)
+  EXPECT_NE(text.find("(ANEES 9.0 while tracking, 3 is ideal)\nnext        `azimuth check runs/mine` says"),
+            std::string::npos)
       << text;
-  EXPECT_EQ(text.rfind("\nhint"), text.rfind('\n', text.size() - 2)) << "not the last line: " << text;
+  EXPECT_EQ(text.rfind("\nnext"), text.rfind('\n', text.size() - 2)) << "not the last line: " << text;
 }
 
 TEST(Summary, IsSilentOnWhatWasNot) {

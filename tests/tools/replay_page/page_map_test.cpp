@@ -56,7 +56,7 @@ TEST(PageMap, CountsLandmarksThatHaveNoNamesInTheOrderOfTheirIds) {
   EXPECT_EQ(unnamed[0]["name"], "2");
   EXPECT_EQ(unnamed[0]["id"], 113);
   EXPECT_EQ(unnamed[1]["name"], "1");
-  picture.landmarks[1].id.reset();  // the sensor calls it 31
+  picture.landmarks[1].id.reset();  // its identity from the sensor is 31
   const auto named = page_map(picture)["landmarks"];
   EXPECT_EQ(named[0]["name"], "113");
   EXPECT_EQ(named[1]["name"], "31");

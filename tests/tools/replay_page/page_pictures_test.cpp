@@ -9,7 +9,7 @@
 namespace azimuth {
 namespace {
 
-/// Eight rendered images, and steps whose health is as told.
+/// A run of eight rendered images, whose steps have the given health.
 class PagePicturesOfARun : public testing::Test {
  protected:
   PagePicturesOfARun() {
@@ -43,7 +43,7 @@ class PagePicturesOfARun : public testing::Test {
 TEST_F(PagePicturesOfARun, AreSpreadEvenly) {
   PagePictures pictures(run_, rig_.camera, {.pictures = 3, .bytes = 1'000'000});
   show(pictures, {Health::starting});
-  ASSERT_EQ(pictures.pictures().size(), 2u);  // two thirds; the third waits for a change that never comes
+  ASSERT_EQ(pictures.pictures().size(), 2u);  // one third is kept for changes of the health
   EXPECT_EQ(pictures.pictures()[0].stamp, run_.frames[0].stamp);
   EXPECT_EQ(pictures.pictures()[1].stamp, run_.frames[4].stamp);
   EXPECT_EQ(pictures.pictures()[0].why, "");

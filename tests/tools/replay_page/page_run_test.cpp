@@ -26,7 +26,7 @@ struct Watched {
   }
 };
 
-/// The shipped laboratory, one lap by the filter.
+/// A replay of the scenario by the EKF, with the data of the page.
 Watched watched(const Scenario& scenario) {
   Watched outcome;
   outcome.run = simulated_run(scenario);
@@ -49,7 +49,7 @@ const Watched& one_lap() {
 TEST(PageRun, ARecordingThatWasCutOffSaysSo) {
   Watched lap = one_lap();
   EXPECT_EQ(lap.page()["unread"], "");
-  lap.run.skipped.foreign_events = 7;  // of programs that have nothing to do with ours
+  lap.run.skipped.foreign_events = 7;  // events of unrelated programs
   EXPECT_EQ(lap.page()["unread"], "");
   lap.run.skipped.damaged_bytes = 17;
   EXPECT_EQ(lap.page()["unread"], "the recording was cut off, or is damaged: 17 damaged bytes");
@@ -89,7 +89,7 @@ TEST(PageRun, AgreesWithTheReport) {
   for (const auto& [name, values] : series.items()) EXPECT_EQ(values.size(), report.steps) << name;
 }
 
-// The filter's own innovations, of which the gate lets 99.7 % pass at most: their mean is near 1, and never NaN.
+// The gate lets 99.7 % of the filter's innovations pass at most, so their mean NIS is near 1. It must never be NaN.
 TEST(PageRun, InnovationsAreAsLargeAsTheFilterSays) {
   double sum = 0.0;
   std::size_t compared = 0;

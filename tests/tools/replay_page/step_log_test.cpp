@@ -5,7 +5,7 @@
 namespace azimuth {
 namespace {
 
-/// Expects what it is told to.
+/// An estimator that expects the given bearings.
 class Expecting final : public Estimator {
  public:
   std::vector<ExpectedBearing> expected;
@@ -32,7 +32,8 @@ TEST(StepLog, SquaresInnovationsByTheirDeviations) {
   StepLog log;
   log.before_update({.stamp = {}, .sequence = 0, .bearings = std::vector<Bearing>(7)}, estimator);
   Estimate estimate;
-  // 2 is off by one deviation, 5 across half a turn by two of them; of 9 no deviation is known, and 4 is new.
+  // Landmark 2 is off by one standard deviation and landmark 5 by two, across pi. Landmark 9 has no known deviation.
+  // Landmark 4 is new.
   estimate.accepted = {accepted(2, 0.52), accepted(5, wrap(3.3)), accepted(9, 1.1), accepted(4, 2.0)};
   estimate.association.accepted = 4;
   log.after_step(estimate);

@@ -34,7 +34,7 @@ TEST(LandmarkHistory, OneThatIsContradictedAgainAndAgainIsDoubted) {
   LandmarkHistory history(10);
   history.take_map(a_map({1}), 0.0);
   history.contradicted(1, 1);
-  history.contradicted(2, 5);  // which nobody knows
+  history.contradicted(2, 5);  // the map does not contain this landmark
   EXPECT_EQ(state(history, a_map({1}), 0), "confirmed") << "once may be somebody who stood there";
   history.contradicted(1, 2);
   EXPECT_EQ(state(history, a_map({1}), 0), "doubted");

@@ -1,4 +1,4 @@
-// What the daemon expected of its images, as it is shown.
+// Tests how the view shows the bearings that the daemon expected in its images.
 
 #include <gtest/gtest.h>
 

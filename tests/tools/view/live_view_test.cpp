@@ -100,7 +100,7 @@ TEST_F(LiveViewTest, WhatIsKeptIsToldWithTheStatus) {
   EXPECT_EQ(shown[1]["kept"]["map_age_s"], 12.0);
 }
 
-/// Who hears nothing at all for a second knows that nobody is there.
+/// A page that receives nothing for a second concludes that the server is gone.
 TEST_F(LiveViewTest, SomethingComesAtLeastTwiceASecond) {
   for (int i = 0; i < 100; ++i) {
     view_.turn(now(), "");
@@ -134,7 +134,7 @@ TEST_F(LiveViewTest, BearingsAreInTheRobotsFrameOnceTheRigIsKnown) {
 TEST_F(LiveViewTest, ARigThatCannotBeReadIsNone) {
   view_.take_rig("front_end = 7 [", now());
   EXPECT_TRUE(data(view_.hello())["rig"].is_null());
-  constexpr std::size_t kLevels = 32000;  // as many as one datagram holds
+  constexpr std::size_t kLevels = 32000;  // as many as fit into one datagram
   view_.take_rig("camera = " + std::string(kLevels, '[') + std::string(kLevels, ']'), now());
   EXPECT_TRUE(data(view_.hello())["rig"].is_null());
 }
@@ -152,7 +152,7 @@ TEST_F(LiveViewTest, SilenceIsToldAndEnds) {
   for (const ViewEvent& event : view_.newest()) EXPECT_NE(event.kind, EventKind::silence);
 }
 
-/// A daemon whose devices are away has no estimate to date its status by.
+/// A daemon without its devices has no estimate, so its status has no time.
 TEST_F(LiveViewTest, AStatusBeforeAnyEstimateIsOfNoTime) {
   view_.take_status(status_t{}, now());
   EXPECT_TRUE(of_kind(EventKind::status)[0]["t"].is_null());
@@ -201,7 +201,7 @@ TEST_F(LiveViewTest, ADaemonThatCountsAnewIsAnotherOne) {
   view_.take_pose(a_pose(1000), now());
   const std::uint64_t restarts = view_.restarts(), generation = view_.generation();
   pose_cov_t first = a_pose(1400);
-  first.seq = 1;  // its number is smaller, and it is newer
+  first.seq = 1;  // the sequence number is smaller although the pose is newer
   view_.take_pose(first, now());
   EXPECT_EQ(view_.restarts(), restarts + 1);
   EXPECT_GT(view_.generation(), generation);
@@ -212,7 +212,7 @@ TEST_F(LiveViewTest, ADaemonThatCountsAnewIsAnotherOne) {
   EXPECT_EQ(data(*trail)["t"].size(), 1U) << "the way of the one before is gone";
 }
 
-/// Of steps (odd numbers) and the predictions before them, which are newer by 60 ms.
+/// A pose with a sequence number. Odd numbers are steps; even numbers are predictions, whose stamps are 60 ms later.
 pose_cov_t numbered(std::int64_t number, std::int64_t ms) {
   pose_cov_t pose = a_pose(number % 2 == 0 ? ms + 60 : ms);
   pose.seq = number;
@@ -221,7 +221,7 @@ pose_cov_t numbered(std::int64_t number, std::int64_t ms) {
 }
 
 TEST_F(LiveViewTest, ADatagramThatWasOvertakenIsNoOtherDaemon) {
-  // GIVEN a drive of which any datagram may be overtaken by up to four others
+  // GIVEN a drive whose late datagrams are overtaken by up to four others
   constexpr std::int64_t kPoses = 200;
   for (std::int64_t behind = 1; behind <= 4; ++behind) {
     LiveView view("azimuth test", "", lookers_, now_);

@@ -20,7 +20,7 @@ class LookerTest : public ShownTest {
     while (const std::size_t count = looker.read(room)) text_.append(room.data(), count);
     return take_events(text_);
   }
-  /// Ten metres a second, 20 poses a second.
+  /// Passes the poses of a drive at 10 m/s to the view, 20 per second.
   void drive(int poses) {
     for (int i = 0; i < poses; ++i) {
       pose_cov_t pose = a_pose(50 * driven_++);

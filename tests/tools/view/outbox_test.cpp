@@ -12,7 +12,7 @@ using testing::HasSubstr;
 
 ViewEvent numbered(EventKind kind, int number) { return make_event(kind, 1, {{"number", number}}); }
 
-/// Kinds with their numbers; -1: none.
+/// The kinds of all events in the outbox with their numbers; -1: an event without number.
 std::vector<std::pair<EventKind, int>> drained(Outbox& outbox) {
   std::vector<std::pair<EventKind, int>> all;
   while (const std::optional<ViewEvent> event = outbox.pop()) {

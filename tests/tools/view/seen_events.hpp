@@ -1,5 +1,5 @@
 #pragma once
-// Server-sent events as a page sees them.
+// Parses server-sent events like a page.
 
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -14,7 +14,8 @@ struct SeenEvent {
   nlohmann::json data;
 };
 
-/// The whole events at the beginning of `text`, which are taken off. A line that is none of a stream throws.
+/// Removes the complete events at the beginning of `text` and returns them. Throws on a line that is not part of an
+/// event stream.
 inline std::vector<SeenEvent> take_events(std::string& text) {
   std::vector<SeenEvent> events;
   for (std::size_t end = text.find("\n\n"); end != std::string::npos; end = text.find("\n\n")) {

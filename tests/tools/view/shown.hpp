@@ -1,5 +1,5 @@
 #pragma once
-// A view that is told of a drive, and what those who look see of it.
+// A fixture with a live view, messages of a drive for it, and the events that it sends to a page.
 
 #include <chrono>
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ inline constexpr std::int64_t kStart_us = 1'000'000'000, kWall_us = 1'700'000'00
 inline constexpr std::string_view kRig =
     "front_end = \"bearings\"\n[camera]\nmodel = \"bearings\"\nyaw_offset_rad = 0.5\nazimuths_clockwise = true\n";
 
-/// At so many milliseconds, which is its number too.
+/// A pose at `ms` milliseconds after the start; `ms` is its sequence number too.
 inline pose_cov_t a_pose(std::int64_t ms) {
   pose_cov_t pose{};
   pose.utime = kStart_us + 1000 * ms;
@@ -33,7 +33,7 @@ inline pose_cov_t a_pose(std::int64_t ms) {
   return pose;
 }
 
-/// One landmark, with the piece's number.
+/// A map piece with one landmark, whose id is the number of the piece.
 inline map_chunk_t a_map_piece(std::int32_t number, std::int32_t pieces, std::int64_t sequence) {
   map_chunk_t piece{};
   piece.utime = kStart_us;
@@ -69,7 +69,8 @@ inline sightings_t sightings(std::int64_t ms, std::int64_t step,
   return message;
 }
 
-/// Of landmarks with their azimuths, each with a standard deviation of 0.1 and a gate of 0.3.
+/// Expected bearings of the given landmarks at the given azimuths. Each has a standard deviation of 0.1 rad and a gate
+/// of 0.3 rad.
 inline expectations_t expectations(std::int64_t ms, std::initializer_list<std::pair<std::int64_t, double>> expected) {
   expectations_t message{};
   message.utime = kStart_us + 1000 * ms;
@@ -95,13 +96,13 @@ class ShownTest : public testing::Test {
  protected:
   ShownTest() { lookers_.add(outbox_); }
 
-  Heard now() {
+  Reception now() {
     collect();
     return {now_, kWall_us};
   }
   void pass(std::chrono::milliseconds time) { now_ += time; }
 
-  /// All so far.
+  /// The data of all events of this kind so far.
   std::vector<nlohmann::json> of_kind(EventKind kind) {
     collect();
     std::string text = seen_;

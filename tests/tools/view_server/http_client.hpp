@@ -1,5 +1,5 @@
 #pragma once
-// A browser's end of HTTP, to the byte.
+// An HTTP client that gives control over every byte.
 
 #include <chrono>
 #include <cstdint>
@@ -10,15 +10,15 @@
 
 namespace azimuth::test {
 
-/// A connection to this machine.
+/// A TCP connection to a port of this machine.
 class HttpClient {
  public:
   explicit HttpClient(std::uint16_t port, int receive_buffer_bytes = 0);
 
   bool send(std::string_view bytes) const;
-  /// What has come within `limit`, or until `enough` is in it, or the other end closes.
+  /// Reads until `limit` has passed, the text contains `enough`, or the server closes the connection.
   std::string read(std::chrono::milliseconds limit, std::string_view enough = {});
-  bool closed() const { return closed_; }  ///< by the other end, as read() found out
+  bool closed() const { return closed_; }  ///< read() has found that the server closed it.
   bool connected() const { return connected_; }
 
  private:
@@ -26,13 +26,14 @@ class HttpClient {
   bool connected_ = false, closed_ = false;
 };
 
-/// Status line, headers and body of what a whole request is answered, as the connection then closes.
+/// Sends a whole request and returns status line, headers and body of the answer. The server then closes the
+/// connection.
 std::string asked(std::uint16_t port, const std::string& request);
 
-/// "GET PATH" as browsers send it; `headers` are lines ending in "\r\n".
+/// The text of a GET request as browsers send it; `headers` are lines that end in "\r\n".
 std::string get(const std::string& path, const std::string& headers = {}, const std::string& host = "localhost");
 
-/// Of an answer; 0: it is none.
+/// The HTTP status of an answer; 0 if the text is no answer.
 int status_of(const std::string& answer);
 std::string body_of(const std::string& answer);
 

@@ -1,4 +1,4 @@
-// What anybody may send to the port: a plain answer, or none, and the server goes on.
+// Sends arbitrary requests to the server. It must answer or close the connection, and continue.
 
 #include "tools/view_server/http_server.hpp"
 
@@ -22,7 +22,7 @@ using testing::Eq;
 using testing::HasSubstr;
 using testing::Not;
 
-/// Says the path it was asked for.
+/// Answers with the path of the request.
 class Echo : public HttpHandler {
  public:
   HttpAnswer answer(const HttpRequest& request) override {
@@ -93,7 +93,7 @@ TEST_F(HttpServerTest, MalformedRequestsAreRefusedAndNothingElseHappens) {
            std::string("GET\r\n\r\n"),
            std::string("GET /\r\n\r\n"),
            std::string("GET / HTTP/9.9\r\nHost: localhost\r\n\r\n"),
-           std::string("GET / HTTP/1.1\r\n\r\n"),  // no host
+           std::string("GET / HTTP/1.1\r\n\r\n"),  // the Host header is missing
            std::string("GET  /  HTTP/1.1  \r\nHost: localhost\r\n\r\n"),
            std::string("GET / HTTP/1.1\r\nHost: localhost\r\nno colon\r\n\r\n"),
            std::string("GET / HTTP/1.1\r\nHost: localhost\r\nContent-Length: -1\r\n\r\n"),
@@ -113,7 +113,8 @@ TEST_F(HttpServerTest, MalformedRequestsAreRefusedAndNothingElseHappens) {
   expect_alive();
 }
 
-/// What is no HTTP the library answers in its own words, without our headers: there is nothing in them to be kept.
+/// The HTTP library answers malformed requests itself, without our security headers. Such an answer must repeat nothing
+/// of the request.
 TEST_F(HttpServerTest, WhatIsAnsweredWithoutOurHeadersRepeatsNothingThatWasSent) {
   const std::string script = "<script>alert(1)</script>";
   std::size_t by_the_library = 0;
@@ -165,7 +166,7 @@ TEST_F(HttpServerTest, WhoAsksTooSlowlyIsGivenUp) {
   const std::string request = get("/");
   const auto begin = std::chrono::steady_clock::now();
   bool goes_on = true;
-  for (std::size_t i = 0; goes_on && i < request.size(); ++i) {  // a byte each 200 ms: never idle for long
+  for (std::size_t i = 0; goes_on && i < request.size(); ++i) {  // a byte per 200 ms: never idle
     goes_on = client.send(request.substr(i, 1));
     client.read(200ms);
     goes_on = goes_on && !client.closed();
@@ -179,7 +180,7 @@ TEST_F(HttpServerTest, ThousandsOfIdleConnectionsGiveWayToOneThatAsks) {
   std::vector<std::unique_ptr<HttpClient>> idle;
   for (int i = 0; i < 2000; ++i) {
     idle.push_back(std::make_unique<HttpClient>(served_.port()));
-    if (idle.size() > 400) idle.erase(idle.begin());  // this process may not have so many descriptors itself
+    if (idle.size() > 400) idle.erase(idle.begin());  // the limit of file descriptors also holds for this process
   }
   const auto begin = std::chrono::steady_clock::now();
   expect_alive();

@@ -1,4 +1,4 @@
-// Twenty look at a robot, five of them have stopped: nobody else's stream is delayed, and memory stays bounded.
+// Twenty pages show a robot, and five of them have stopped reading. The streams of the others must not be delayed.
 
 #include <gmock/gmock.h>
 #include <memory>
@@ -18,7 +18,7 @@ using namespace std::chrono_literals;
 
 constexpr int kLookers = 20, kStopped = 5, kPoses = 90;
 
-/// Wide enough to fill a stopped reader's buffers.
+/// A map that is large enough to fill the buffers of a stopped reader.
 map_chunk_t a_large_map(std::int64_t sequence) {
   map_chunk_t map{};
   map.seq = sequence;
@@ -58,7 +58,7 @@ TEST(ManyLookers, ThoseThatStoppedDelayNobodyElse) {
       pose.seq = i;
       pose.utime = 1000 * i;
       pose.x_m = i;
-      const Heard now{std::chrono::steady_clock::now(), 0};
+      const Reception now{std::chrono::steady_clock::now(), 0};
       view.take_map(a_large_map(i), now);
       view.take_pose(pose, now);
     });

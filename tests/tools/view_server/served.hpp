@@ -1,5 +1,5 @@
 #pragma once
-// A server on a thread of its own, as the command runs it, with work handed over to that thread.
+// Runs a server on its own thread, as the command does, and runs functions on that thread.
 
 #include <atomic>
 #include <chrono>
@@ -22,7 +22,7 @@ namespace azimuth::test {
 
 class Served {
  public:
-  /// Makes handler and server where they are used.
+  /// Opens the server and starts its thread.
   Served(const HttpSettings& settings, HttpHandler& handler) : server_(HttpServer::open(settings, handler).value()) {
     port_ = server_->port();
     thread_ = std::thread([this] { run(); });
@@ -37,7 +37,7 @@ class Served {
 
   std::uint16_t port() const { return port_; }
 
-  /// On the server's thread, between two turns; comes back when it is done.
+  /// Runs `work` on the thread of the server, between two turns, and waits until it has finished.
   void there(const std::function<void(HttpServer&)>& work) {
     std::promise<void> done;
     {

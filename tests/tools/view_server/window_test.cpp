@@ -1,4 +1,4 @@
-// What is behind each path, and who may look.
+// Tests the answer to each path, and the access control.
 
 #include "tools/view_server/window.hpp"
 
@@ -134,8 +134,8 @@ TEST_F(WindowTest, WhoGoesMakesRoom) {
     HttpClient looker(served_->port());
     looker.send(get("/events"));
     EXPECT_THAT(looker.read(5s, "event: hello"), HasSubstr("event: hello")) << i;
-    looker = HttpClient(served_->port());                     // gone
-    served_->there([&](HttpServer&) { view_.restart({}); });  // something to send: it is found out
+    looker = HttpClient(served_->port());                     // the page is gone
+    served_->there([&](HttpServer&) { view_.restart({}); });  // the server notices this when it sends an event
     for (int k = 0; k < 100; ++k) {
       std::size_t looking = 1;
       served_->there([&](HttpServer&) {
