@@ -27,7 +27,7 @@
  *   images recorded  EveryOne  Refused and counted. They are copies, so a slow disk does not keep the camera's buffers.
  *   estimates        Newest    The unread estimate is replaced; the next one has the better map.
  *   predictions      Newest    The unread prediction is replaced.
- *   findings         Newest    The unread finding is replaced. It says why samples cannot be right; the estimator
+ *   findings         Newest    The unread finding is replaced. A finding says why samples are wrong; the estimator
  *                              sends it to the publisher when it changes.
  *   to painter       Newest    The unread image, and the unread expected bearings, are replaced.
  *   maps             Newest    No map is made while the previous one is being saved.

@@ -127,7 +127,7 @@ class PioneerDriver {
   static constexpr Clock::duration kFirstAfterRefusal = std::chrono::milliseconds(500);
   Clock::duration refusal_back_off_ = kFirstAfterRefusal;
   enum class Followed { opening, no_config, config };
-  Followed followed_ = Followed::opening;  // last phase of the current session that was reported
+  Followed followed_ = Followed::opening;  // state of the current session that odometer and log know
   std::uint64_t skipped_before_ = 0;
   bool told_telnet_ = false;
 

@@ -8,8 +8,8 @@
 namespace azimuth {
 
 /// Makes the rig of a run whose images show a mirror, and prints the findings unless `quiet`. The rig has the robot's
-/// heading up in the image, and the front end that recognises more in the images. Refuses and fails as the command
-/// does.
+/// heading up in the image, and the one of the two front ends that recognises more in the images. Refuses and fails as
+/// the command does.
 Rig rig_by_mirror(const std::filesystem::path& run, bool quiet);
 
 }  // namespace azimuth

@@ -24,7 +24,7 @@ namespace azimuth {
 namespace {
 
 constexpr std::size_t kMostPairs = 20;
-constexpr double kClear = 0.5;  // in single images, less clear rims are sometimes mistaken
+constexpr double kClear = 0.5;  // in single images, a rim less clear than this is sometimes mistaken
 
 struct MirrorOptions {
   std::vector<std::filesystem::path> images;

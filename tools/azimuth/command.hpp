@@ -17,7 +17,7 @@ using Exit = int;
 inline constexpr Exit kDone = 0;
 inline constexpr Exit kFailure = 1;        ///< the system refused something: a file could not be written
 inline constexpr Exit kBadInput = 2;       ///< the command line, a configuration or the data is wrong
-inline constexpr Exit kInterrupted = 130;  ///< by Ctrl-C or SIGTERM; no output is half written
+inline constexpr Exit kInterrupted = 130;  ///< ended by Ctrl-C or SIGTERM; no output is half written
 inline constexpr Exit kEndsLost = 3;       ///< a replay that wrote its outputs, but ends with a lost robot
 
 /// A subcommand throws this to end the program. main() prints the message, one error per line.

@@ -3,7 +3,7 @@
 namespace azimuth {
 
 /// While an object of this class lives, the first Ctrl-C or SIGTERM is only noted, so that half-written output can be
-/// removed. The next one ends the program at once. At most one object may live at a time.
+/// removed. The next signal ends the program at once. At most one object may live at a time.
 ///
 /// Thread contract: for single-threaded programs.
 class Interruptible {

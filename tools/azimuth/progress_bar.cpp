@@ -12,7 +12,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kLong = 500ms;  // shorter work shows no bar
+constexpr auto kLong = 500ms;  // work shorter than this shows no bar
 constexpr auto kRefresh = 100ms;
 constexpr std::size_t kCells = 30;
 

@@ -93,9 +93,11 @@ std::optional<Message> read_message(Bytes content) {
   Content said(content);
   Message message;
   message.channel = said.number<std::uint16_t>();
-  said.number<std::uint32_t>();  // sequence
+  said.number<std::uint32_t>();  // skips the sequence number
+
   message.recorded_ns = said.number<std::uint64_t>();
-  said.number<std::uint64_t>();  // published
+  said.number<std::uint64_t>();  // skips the time of publishing
+
   message.data = said.rest();
   return said.is_sound() ? std::optional(message) : std::nullopt;
 }

@@ -13,9 +13,10 @@ namespace {
 constexpr std::size_t kLeastBoards = 5;
 constexpr double kLeastReach = 0.6;       // corners must reach this fraction of the image circle's radius
 constexpr double kMostMustFitLens = 0.8;  // least share of corners that fit
-constexpr double kMostCentre_px = 2.0;    // largest acceptable standard deviations
+// Largest acceptable standard deviations of the centre, of radii, and of the focal length (relative).
+constexpr double kMostCentre_px = 2.0;
 constexpr double kMostRadius_px = 4.0;
-constexpr double kMostFocal = 0.02;   // relative standard deviation
+constexpr double kMostFocal = 0.02;
 constexpr double kBeyond_rad = 0.02;  // the lens is valid up to the largest observed angle plus this
 
 std::string words(const Chessboard& board) { return fmt::format("{}x{}", board.columns, board.rows); }

@@ -19,13 +19,14 @@ struct BoardCalibration {
 };
 
 /// `rig` contains the prior knowledge: size of the images, mask, azimuth direction, and optionally an initial lens. If
-/// there is none, or if `field_of_view_rad` is given (full angle within the image circle), the fit starts from
-/// equidistant lenses. If the images do not determine the lens, the result is empty and `problem` has one sentence with
-/// the reason. Deterministic.
+/// there is no initial lens, or if `field_of_view_rad` is given (full angle within the image circle), the fit starts
+/// from equidistant lenses. If the images do not determine the lens, the result is empty and `problem` has one sentence
+/// with the reason. Deterministic.
 std::optional<BoardCalibration> calibrate_by_boards(const Chessboard& board, const SeenBoards& seen, const Rig& rig,
                                                     std::optional<double> field_of_view_rad, std::string& problem);
 
-/// The rig of a camera of which only the image format is known. It looks up; the heading points up in the image.
+/// The rig of a camera of which only the image format is known. The camera looks up; the heading points up in the
+/// image.
 Rig unknown_fisheye(const FrameFormat& format);
 
 }  // namespace azimuth

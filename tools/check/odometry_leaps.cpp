@@ -11,11 +11,11 @@ namespace azimuth {
 namespace {
 
 constexpr std::size_t kLeastReadings = 20;
-constexpr double kMoves_m = 1e-3;   // a shorter step counts as standing
+constexpr double kMoves_m = 1e-3;   // a step shorter than this counts as standing
 constexpr double kPaceShare = 0.8;  // quantile of the speeds of all moving steps
 constexpr double kTimesPace = 5.0;
-constexpr double kLeast_m = 0.03;       // encoder steps and stamp jitter cause shorter steps
-constexpr double kGrip_m_s2 = 10.0;     // no wheeled robot accelerates faster: tyres slip
+constexpr double kLeast_m = 0.03;       // encoder steps and stamp jitter cause steps shorter than this
+constexpr double kGrip_m_s2 = 10.0;     // no wheeled robot accelerates faster than this: tyres slip
 constexpr double kGoneOn = 0.7;         // a neighbour that differs by less than this fraction of a step continues it
 constexpr std::size_t kMostApart = 12;  // most readings between alternations of two senders
 constexpr double kUndone = 0.4;         // a leap is undone if at most this fraction of it remains after a later leap

@@ -31,7 +31,7 @@ struct FigureChange {
   double severity;  ///< ratio of the change to the allowed change
 };
 
-/// A run that both sides have, or only the new side.
+/// A run that both versions have, or only the new version.
 struct ComparedRun {
   std::string name;
   std::vector<std::string> tags;

@@ -20,8 +20,9 @@ struct FoundNumber {
 struct OdometryCalibration {
   FoundNumber turn, drift, lag;
   OdometryNoise noise;
-  Creep creep;             ///< measured at standstills; if it is told, the floors of the rig in `solution` cover it
-  DriveSolution solution;  ///< its rig contains all calibrated values
+  /// Creep measured at standstills. If the drive tells it, the noise floors of the rig in `solution` cover it.
+  Creep creep;
+  DriveSolution solution;  ///< fitted drive, whose rig contains all calibrated values
 };
 /// Calibrates odometry. `rig` is the starting point and may be uncalibrated.
 OdometryCalibration calibrate_odometry(const Drive& drive, const Rig& rig, const HindsightSettings& settings);

@@ -13,7 +13,7 @@
 namespace azimuth {
 
 struct Drive {
-  std::vector<OdometryReading> odometry;  ///< raw
+  std::vector<OdometryReading> odometry;  ///< uncalibrated readings
   std::vector<BearingSet> sets;           ///< bearing sets covered by odometry; azimuths in the camera's frame
 
   bool names_are_landmarks = true;  ///< identities are those of a survey; false: given by tracking

@@ -29,7 +29,7 @@ struct CameraJump {
 };
 
 struct RigGuess {
-  /// Fits use its odometry and the camera's yaw and position. The path of a solution is that of the camera.
+  /// Fits use the rig's odometry and the camera's yaw and position. The path of a solution is that of the camera.
   Rig rig;
   bool mirrored = false;  ///< the azimuths of the drive have the wrong sign
   CameraJump jump{};      ///< no jump if by_s is 0

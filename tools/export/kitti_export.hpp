@@ -11,7 +11,8 @@ namespace azimuth {
 /// first line of a run without an initial map is the identity.
 std::string kitti_text(const Estimated& estimated);
 
-/// The times of those lines in the format of the benchmark's times.txt: seconds since the first pose, one per line.
+/// The times of the lines of kitti_text() in the format of the benchmark's times.txt: seconds since the first pose, one
+/// per line.
 std::string kitti_times(const Estimated& estimated);
 
 }  // namespace azimuth

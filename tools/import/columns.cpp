@@ -28,7 +28,8 @@ constexpr std::array<Unit, 12> kUnits{{{"m", "m", 1.0},
                                        {"km/h", "m_s", 1.0 / 3.6},
                                        {"rad/s", "rad_s", 1.0},
                                        {"deg/s", "rad_s", kPi / 180.0}}};
-constexpr std::array<std::string_view, 4> kTimes{"s", "ms", "us", "ns"};  // three more digits each
+constexpr std::array<std::string_view, 4> kTimes{"s", "ms", "us",
+                                                 "ns"};  // each unit adds three digits to the previous one
 
 std::string_view without_blanks(std::string_view text) {
   while (!text.empty() && text.front() == ' ') text.remove_prefix(1);

@@ -16,7 +16,8 @@ namespace {
 constexpr std::size_t kLeastLamps = 3;
 constexpr double kLeastSpread_rad = 0.5;  // least range of the lamps' angles from the axis
 constexpr double kMostMustFitLens = 0.5;  // least share of observations that fit
-constexpr double kMostCentre_px = 2.0;    // largest acceptable standard deviations
+// Largest acceptable standard deviations of the centre and of radii.
+constexpr double kMostCentre_px = 2.0;
 constexpr double kMostRadius_px = 4.0;
 constexpr double kAnyTilt_rad = 0.05;  // prior standard deviation of an unmeasured tilt
 constexpr double kSurelyLeans = 18.4;  // chi squared with 2 degrees of freedom at a probability of 1e-4

@@ -14,7 +14,7 @@ namespace {
 
 // WGS 84
 constexpr double kEquator_m = 6378137.0, kFlattening = 1.0 / 298.257223563;
-constexpr double kMostLatitude_deg = 89.0;  // nearer to a pole, longitudes on the tangent plane diverge
+constexpr double kMostLatitude_deg = 89.0;  // nearer to a pole than this, longitudes on the tangent plane diverge
 
 /// Wraps a longitude to [-180, 180] degrees, for maps across the antimeridian.
 double within_a_half_turn_deg(double longitude_deg) { return std::remainder(longitude_deg, 360.0); }

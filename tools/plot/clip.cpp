@@ -8,7 +8,7 @@
 namespace azimuth {
 namespace {
 
-constexpr double kFarthest = 1e12;  // larger coordinates leave no meaningful differences
+constexpr double kFarthest = 1e12;  // coordinates larger than this leave no meaningful differences
 
 bool is_place(const Eigen::Vector2d& point) { return point.allFinite() && point.cwiseAbs().maxCoeff() < kFarthest; }
 

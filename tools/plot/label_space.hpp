@@ -9,8 +9,8 @@
 
 namespace azimuth {
 
-/// Places labels beside their points: inside a frame, not on occupied space, and preferably not on space to avoid. It
-/// uses a grid with cells of a few pixels, so that thousands of landmarks are placed quickly.
+/// Places labels beside their points: inside a frame, not on occupied space, and preferably not on space to avoid. The
+/// class uses a grid with cells of a few pixels, so that thousands of landmarks are placed quickly.
 ///
 /// Thread contract: thread-bound.
 class LabelSpace {

@@ -46,7 +46,7 @@ class PagePictures {
   const Run& run_;
   PictureLimits limits_;
   std::size_t spread_;  ///< number of evenly spread pictures
-  std::size_t every_;   ///< interval between them, in images
+  std::size_t every_;   ///< interval between evenly spread pictures, in images
   RunImages images_;
   Picture picture_;
   JpegEncoder encoder_;

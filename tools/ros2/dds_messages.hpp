@@ -8,8 +8,9 @@
 
 namespace azimuth {
 
-/// The storage of these structures. They borrow texts from their message, and the storage until it is used again, so
-/// they are for writing only. Members that no message here uses (textures, meshes, points) are empty.
+/// The storage of the structures that dds_message() returns. They borrow texts from their message, and the storage
+/// until it is used again, so they are for writing only. Members that no message here uses (textures, meshes, points)
+/// are empty.
 struct DdsStorage {
   std::vector<geometry_msgs_msg_dds__TransformStamped_> transforms;
   std::vector<geometry_msgs_msg_dds__PoseStamped_> poses;

@@ -17,7 +17,7 @@ namespace {
 
 /// Silence of a sender after which another process is accepted, for example a restarted daemon.
 constexpr Duration kSenderSilence = std::chrono::milliseconds(500);
-/// The same for the sender of pictures, which are rare.
+/// Silence of the sender of pictures after which another one is accepted. Pictures are rare.
 constexpr Duration kPainterSilence = std::chrono::seconds(5);
 
 constexpr std::array kShown{channel::kExpected, channel::kKept,     channel::kPose,      channel::kOdometry,

@@ -49,7 +49,7 @@ struct SessionMark {
 
 /// Takes valid messages of one daemon. Its memory is bounded by ViewLimits for any input.
 ///
-/// Events are limited to 30 poses and 15 images per second. A newer one replaces a waiting one.
+/// Events are limited to 30 poses and 15 images per second. A newer event replaces a waiting one of its kind.
 ///
 /// Thread contract: thread-bound.
 class LiveView {

@@ -8,7 +8,7 @@
 
 namespace azimuth {
 
-/// Events that wait to be sent to one client. It holds at most one event of each kind with newest_wins(), and
+/// Events that wait to be sent to one client. The outbox holds at most one event of each kind with newest_wins(), and
 /// kMostLines of the other kinds together. Replaced and dropped events are counted.
 ///
 /// Thread contract: thread-bound.

@@ -70,9 +70,9 @@ class Bridge : public LcmSink {
   MapPieces map_;
   PathPieces path_;
   BridgeCounts counts_;
-  std::optional<ros::TimedPose> odometry_;        // sent last
+  std::optional<ros::TimedPose> odometry_;        // odometry that was sent last
   Clock::time_point heard_;                       // time of the last pose, or of the start
-  bool pose_came_ = false, status_came_ = false;  // since the last turn
+  bool pose_came_ = false, status_came_ = false;  // whether a pose and a status came since the last turn
   std::optional<Clock::time_point> status_heard_;
   std::string devices_;  // text about the devices in the last status
   bool silent_ = false, told_other_sender_ = false, told_beyond_ = false, told_clock_ = false;

@@ -10,7 +10,7 @@
 namespace azimuth {
 namespace {
 
-constexpr unsigned kMostDomain = 232;  // DDS has no ports for larger domains
+constexpr unsigned kMostDomain = 232;  // DDS has no ports for domains larger than this
 
 /// The domain in the text of ROS_DOMAIN_ID.
 unsigned domain_of(const std::string& text) {
