@@ -28,6 +28,7 @@ FileResult<Told> read_told(const Options& options) {
   FileResult<Configuration> configuration =
       read_configuration_file(options.config_file, options.overrides, pointers(sections));
   if (!configuration) return failure(configuration.error());
+  told.daemon.publish.print_poses = options.print_poses;
   if (FileErrors wrong = check(told.daemon); !wrong.empty()) return failure(std::move(wrong));
   told.configuration = *configuration;
   return told;

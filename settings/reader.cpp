@@ -157,6 +157,9 @@ struct Walk {
     } else if (is_section_or_parent(sections, child)) {
       if (value.is_table()) return table(*value.as_table(), child);
       report(key, fmt::format("'{}' must be a table, not {}", child, kind_of(value)));
+    } else if (!section && !value.is_table() && is_section_or_parent(sections, path)) {
+      const Section parent{path, "", {}};  // a table without keys of its own, such as [colour]
+      unknown(parent, parent, key, value);
     } else if (value.is_table() || !section) {
       report(key, unknown_section(sections, value.is_table() ? child : path));
     } else {

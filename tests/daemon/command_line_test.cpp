@@ -155,6 +155,12 @@ TEST_F(CommandLine, ShippedConfigurationIsTheReference) {
   EXPECT_EQ(text, outcome.output) << "write it anew: azimuthd --print-settings > config/azimuth.toml";
 }
 
+TEST_F(CommandLine, PrintsTheSettingsOfTheRig) {
+  const Ended outcome = run({"--print-rig-settings"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.output, HasSubstr("#sigma_bearing_rad = "));
+}
+
 TEST_F(CommandLine, EveryDefaultOfTheReferenceIsValid) {
   std::string text = run({"--print-settings"}).output, all_keys;
   for (std::size_t i = 0; i < text.size(); ++i) {

@@ -38,7 +38,7 @@ def options_of(said):
 
 
 def commands_of(said):
-    return re.findall(r"^  (\w+)  ", said.split("Subcommands:")[1], flags=re.M) if "Subcommands:" in said else []
+    return re.findall(r"^  ([a-z]\w*)  ", said, flags=re.M)  # in any group; positionals are in capitals
 
 
 def written_options(text):

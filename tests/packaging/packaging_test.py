@@ -142,7 +142,7 @@ def maintainer_scripts():
 
 # Files whose path in the tree differs from that in the package.
 SHIPPED_AS = {"CHANGELOG.md": "changelog.gz", "LICENSE": "copyright", "README.md": "README.md.gz",
-              "lcmtypes": "../../azimuth/lcmtypes", "config/azimuth.toml": "examples/config/azimuth.toml"}
+              "drivers/lcmtypes": "../../azimuth/lcmtypes", "config/azimuth.toml": "examples/config/azimuth.toml"}
 
 
 def linked_from_readme():

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <ostream>
 #include <string>
 
 #include "settings/configured_estimator.hpp"
@@ -12,6 +13,9 @@
 #include "tools/simulated/simulated_run.hpp"
 
 namespace azimuth {
+
+static void PrintTo(EstimatorKind kind, std::ostream* out) { *out << name(kind); }  // for the tests' names
+
 namespace {
 
 Report replayed_by(EstimatorKind estimator, const Run& run, const Rig& rig) {

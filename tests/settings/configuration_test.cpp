@@ -13,9 +13,9 @@
 namespace azimuth {
 namespace {
 
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
+using ::testing::UnorderedElementsAre;
 
 Configuration read(std::string_view text, const std::vector<std::string>& overrides = {}) {
   const FileResult<Configuration> read = read_configuration(text, "azimuth.toml", overrides);
@@ -157,12 +157,16 @@ TEST(Configuration, TablesOfTheRigColoursAndHealthNameEveryMember) {
 }
 
 TEST(Configuration, AKeyOfAnEarlierVersionIsIgnoredInAFileAndRefusedOnTheCommandLine) {
-  const Configuration old = read("[ekf]\nthinning_s = 2\ngate_chi2 = 16\n[fastslam]\nmax_counter = 3\n");
+  const Configuration old = read(
+      "[ekf]\nthinning_s = 2\ngate_chi2 = 16\n[fastslam]\nmax_counter = 3\n"
+      "[colour]\narea_min_px2 = 9\n");
   EXPECT_EQ(old.ekf.thinning_s, 2.0);
   EXPECT_EQ(old.ekf.gates.chi2, EkfSettings{}.gates.chi2);
-  EXPECT_THAT(old.warnings, ElementsAre("azimuth.toml:3: unknown key 'gate_chi2' in [ekf]; it is a key no more: the "
-                                        "value that measured best is built in, and the value is ignored",
-                                        HasSubstr("azimuth.toml:5: unknown key 'max_counter' in [fastslam]")));
+  EXPECT_THAT(old.warnings,
+              UnorderedElementsAre("azimuth.toml:3: unknown key 'gate_chi2' in [ekf]; it is a key no more: the "
+                                   "value that measured best is built in, and the value is ignored",
+                                   HasSubstr("azimuth.toml:5: unknown key 'max_counter' in [fastslam]"),
+                                   HasSubstr("azimuth.toml:7: unknown key 'area_min_px2' in [colour]")));
   const FileResult<Configuration> refused =
       read_configuration("", "a.toml", std::vector<std::string>{"ekf.gate_chi2=4"});
   ASSERT_FALSE(refused);

@@ -23,7 +23,7 @@ using testing::IsEmpty;
 TEST(CanDriver, ReadsOdometryAndWhatTheRobotSaysOfItself) {
   DriverBench bench;
   CanFrame frame = test::empty_frame(test::kRobotId);
-  frame.data = {0xC4, 0x09, 0xA5, 0x10, 0x01};  // 25.00 V, masked 5, masked 0x10, 1
+  frame.data = {0xC4, 0x09, 0xA5, 0x10, 0x01};  // 25.00 V, the three flags set
   bench.bus.waiting.push_back({frame, bench.now});
   bench.run(1s);
   const CanState& state = bench.driver.state();
@@ -39,7 +39,7 @@ TEST(CanDriver, ReadsOdometryAndWhatTheRobotSaysOfItself) {
   EXPECT_THAT(bench.bus.asked_for, ElementsAre(test::kLeftId, test::kRightId, test::kRobotId));
   EXPECT_THAT(bench.events, ElementsAre("can0: little buffer", "odometry comes from can0"));
 
-  frame.data = {0, 0, 0xA4, 0x0F, 0x02};
+  frame.data = {0, 0, 0xA0, 0x0F, 0x02};
   bench.bus.waiting.push_back({frame, bench.now});
   bench.run(10ms);
   EXPECT_FALSE(state.emergency_stop);

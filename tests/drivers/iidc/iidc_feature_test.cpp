@@ -66,14 +66,14 @@ TEST_F(IidcFeatureTest, WhatTheCameraCannotDoIsTold) {
   sharpness.step = 16;
   FakeFeature& exposure = offer(DC1394_FEATURE_EXPOSURE);
   exposure.absolute = true;
-  offer(DC1394_FEATURE_FOCUS);
+  offer(DC1394_FEATURE_GAMMA);
   offer(DC1394_FEATURE_WHITE_BALANCE).max = 500;
   settings_.gain = "auto";
   settings_.focus = "100";
   settings_.shutter = "4 ms";
   settings_.sharpness = "100";
   settings_.exposure = "12 EV";
-  settings_.focus = "off";
+  settings_.gamma = "off";
   settings_.white_balance = "600 400";
   settings_.brightness = "5";
   ASSERT_TRUE(open());
@@ -83,7 +83,7 @@ TEST_F(IidcFeatureTest, WhatTheCameraCannotDoIsTold) {
           "gain \"auto\": the camera cannot do it automatically", "focus \"100\": is 90; the camera has 0 to 90",
           "shutter \"4 ms\": the camera has no absolute values for it, only its register's",
           "sharpness \"100\": is 96; the camera has 0 to 1000", "exposure \"12 EV\": is 10; the camera has 0 to 10",
-          "focus \"off\": the camera cannot switch it off", "white_balance \"600 400\": is 500 400",
+          "gamma \"off\": the camera cannot switch it off", "white_balance \"600 400\": is 500 400",
           "brightness \"5\": the camera does not have it"));
 }
 

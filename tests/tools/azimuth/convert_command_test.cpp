@@ -16,6 +16,12 @@ TEST(ConvertCommand, ThereAndBackKeepsEveryBit) {
   ASSERT_EQ(azimuth({"import", log, folder}).code, 0);
   EXPECT_EQ(folder_bytes(folder), folder_bytes(test::one_lap()));
 
+  const std::string exported = scratch / "exported.lcmlog";
+  ASSERT_EQ(azimuth({"export", test::one_lap(), exported}).code, 0);
+  EXPECT_EQ(file_bytes(exported), file_bytes(log));
+  EXPECT_EQ(azimuth({"export", test::one_lap(), exported}).code, 2) << "it is there already";
+  EXPECT_EQ(azimuth({"export", test::one_lap(), exported, "--force"}).code, 0);
+
   const std::string digest = digest_of(test::one_lap());
   EXPECT_EQ(digest.size(), 16u) << digest;
   EXPECT_EQ(digest_of(log), digest);

@@ -108,7 +108,7 @@ TEST_F(RecordedSession, OtherSettingsGiveOtherPoses) {
   const std::string session = record(), empty = scratch_ / "empty.toml";
   write_file(empty, "");
   for (const std::vector<std::string>& other :
-       {std::vector<std::string>{"--config", empty}, {"--set", "ekf.thinning_s=0.2"}}) {
+       {std::vector<std::string>{"--config", empty}, {"--set", "estimator=smoother"}}) {
     std::vector<std::string> arguments{"replay", session, "--verify", "--quiet"};
     arguments.insert(arguments.end(), other.begin(), other.end());
     const Outcome outcome = azimuth(arguments);

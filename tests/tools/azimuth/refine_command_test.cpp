@@ -75,9 +75,9 @@ TEST_F(RefineCommand, AFilterStartsFromTheRefinedMap) {
 }
 
 TEST_F(RefineCommand, AnotherEstimatorInTheConfigurationChangesNothing) {
-  const Json plain = report_of({"refine", test::one_lap()});
+  const Json plain = report_of({"map", "refine", test::one_lap()});
   for (const char* estimator : {"ekf", "smoother"}) {
-    const Json other = report_of({"refine", test::one_lap(), "--set", std::string("estimator=") + estimator});
+    const Json other = report_of({"map", "refine", test::one_lap(), "--set", std::string("estimator=") + estimator});
     EXPECT_EQ(other["digest"], plain["digest"]) << estimator;
     EXPECT_EQ(other["hindsight"], plain["hindsight"]) << estimator;
   }

@@ -11,7 +11,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(sys.argv[1]) / "fleet"))
+sys.path.insert(0, str(Path(sys.argv[1]) / "tools/fleet"))
 import corpus  # noqa: E402
 
 

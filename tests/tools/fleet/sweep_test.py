@@ -11,7 +11,7 @@ import unittest
 import xml.etree.ElementTree as xml
 from pathlib import Path
 
-sys.path.insert(0, str(Path(sys.argv[1]) / "fleet"))
+sys.path.insert(0, str(Path(sys.argv[1]) / "tools/fleet"))
 import sweep  # noqa: E402
 import sweep_page  # noqa: E402
 import sweep_table  # noqa: E402

@@ -62,7 +62,7 @@ def problems(azimuth, chromium, folder):
     (before / "8.json").write_text(json.dumps(report(ROGUE, 0.1, 0.1)))
     (after / "9.json").write_text('{"name": "cut')
     page = folder / "page.html"
-    subprocess.run([azimuth, "compare", after, "--baseline", before, "--quiet", "--html", page], check=True)
+    subprocess.run([azimuth, "report", "compare", after, "--baseline", before, "--quiet", "--html", page], check=True)
     dom, complaints = opened(chromium, page, folder)
     yield from complaints
     for wanted in ("&lt;script&gt;'\"&amp;", "9.json: is cut short", "Missing, in the baseline alone (1)", "8 runs compared"):
