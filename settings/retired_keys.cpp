@@ -21,7 +21,7 @@ constexpr Retired kRetired[] = {
      "bumper_mask bumper_value charging_mask charging_value emergency_stop_mask emergency_stop_value "
      "max_speed_m_s max_turn_rad_s stale_s"},
     {"daemon.fifo", "silent_s"},
-    {"daemon.iidc", "dma_buffers iris iso_speed_mbps packet_bytes saturation"},
+    {"daemon.iidc", "dma_buffers iris iso_speed_mbps packet_bytes saturation sharpness"},
     {"daemon.lcm", "print_poses"},
     {"daemon.lcm_source", "max_age_s max_frame_mb silent_s"},
     {"daemon.live", "camera_silent_s"},
@@ -31,7 +31,7 @@ constexpr Retired kRetired[] = {
      "distance_mm_per_unit encoder heading_units_per_turn lost_s max_speed_m_s max_turn_rad_s raised_baud "
      "stale_s ticks_per_mm usb_latency_s"},
     {"daemon.realtime", "publisher_cpu publisher_fifo_priority recorder_cpu recorder_fifo_priority"},
-    {"daemon.record", "flush_interval_s frames_quality max_file_age_s max_file_mb"},
+    {"daemon.record", "flush_interval_s max_file_age_s max_file_mb"},
     {"daemon.usb", "hotplug reset_after_s"},
     {"daemon.v4l2", "buffers exposure_may_lower_rate formats"},
     {"ekf",

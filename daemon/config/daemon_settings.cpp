@@ -126,6 +126,7 @@ Section record_section(RecordSettings& record) {
            "change a little, and so do the bearings; images of a camera that sends JPEG stay as they came."),
        {"frames_rate_hz", &record.frames_rate_hz,
         "Most recorded images per second; 0: every image that the front end looked at.", from_to(0, 1000)},
+       {"frames_quality", &record.frames_quality, "Quality of recorded JPEG images.", from_to(1, 100)},
        {"frames_quota_mb", &record.frames_quota_mb,
         "Most space of the images of all sessions together, beside quota_mb: the oldest images are deleted first, "
         "samples never. 0: no limit.",

@@ -30,8 +30,7 @@ Section iidc_section(IidcSettings& iidc) {
        {"focus", &iidc.focus, "Focus: keep, auto, off, or a whole number in the camera's units."},
        {"white_balance", &iidc.white_balance,
         "White balance: keep, auto, off, or two numbers, blue and red, such as \"512 480\"."},
-       {"gamma", &iidc.gamma, "Gamma: keep, auto, off, or a whole number in the camera's units."},
-       {"sharpness", &iidc.sharpness, "Sharpness: keep, auto, off, or a whole number in the camera's units."}}};
+       {"gamma", &iidc.gamma, "Gamma: keep, auto, off, or a whole number in the camera's units."}}};
 }
 
 FileErrors check(const IidcSettings& iidc) {

@@ -161,7 +161,8 @@ class FieldLogImages : public FieldLog {
   void record(const std::string& played, const std::string& frames) const {
     fs::remove_all(folder_ / "log");
     output_of({AZIMUTHD, "--play", folder_ / played, "--record", folder_ / "log", "--lcm-url", "memq://", "--set",
-               "daemon.record.min_free_mb=1", "--set", "daemon.record.frames=\"" + frames + '"'});
+               "daemon.record.min_free_mb=1", "--set", "daemon.record.frames=\"" + frames + '"', "--set",
+               "daemon.record.frames_quality=30"});
   }
 
   std::size_t frames_ = 0;
