@@ -1,7 +1,6 @@
 #include "settings/retired_keys.hpp"
 
 #include <algorithm>
-#include <ranges>
 
 namespace azimuth {
 namespace {
@@ -79,10 +78,15 @@ constexpr Retired kRetired[] = {
 }  // namespace
 
 bool is_retired(std::string_view section, std::string_view key) {
-  return std::ranges::any_of(kRetired, [&](const Retired& retired) {
-    const auto is_key = [&](const auto& word) { return std::ranges::equal(word, key); };
-    return retired.section == section && std::ranges::any_of(std::views::split(retired.keys, ' '), is_key);
-  });
+  const auto is_among = [key](std::string_view keys) {
+    for (std::size_t at = keys.find(key); at != std::string_view::npos; at = keys.find(key, at + 1)) {
+      const std::size_t end = at + key.size();
+      if ((at == 0 || keys[at - 1] == ' ') && (end == keys.size() || keys[end] == ' ')) return true;
+    }
+    return false;
+  };
+  return std::ranges::any_of(
+      kRetired, [&](const Retired& retired) { return retired.section == section && is_among(retired.keys); });
 }
 
 }  // namespace azimuth
