@@ -112,7 +112,8 @@ TEST(Reader, HintsAtTheRightUnitAndConverts) {
 TEST(Reader, ReportsUnknownSections) {
   Tables t;
   EXPECT_THAT(t.read("[fisrt]\ncount = 2\n"), ElementsAre(says("1:2: unknown section [fisrt]; did you mean [first]?")));
-  EXPECT_THAT(t.read("[outer]\ngain = 2\n"), ElementsAre(says("2:1: unknown section [outer]")));
+  EXPECT_THAT(t.read("[outer]\ngain = 2\n"),
+              ElementsAre(says("2:1: unknown key 'gain' in [outer]; it belongs in [outer.second]")));
   EXPECT_THAT(t.read("first = 3\n"), ElementsAre(says("'first' must be a table, not a whole number")));
   EXPECT_THAT(t.read("[[first]]\ncount = 2\n"), ElementsAre(says("'first' must be a table, not an array")));
 }
