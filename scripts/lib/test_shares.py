@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Divides the tests with the label `statistics` or `nightly`, which take too long for every change, into ten shares of
-equal length. Each commit runs one share, so that ten consecutive commits run all of them.
+"""Divides the tests with the label `statistics` or `nightly`, which take too long for every change, into twenty shares
+of equal length. Each commit runs one share, so that twenty consecutive commits run all of them.
 
-usage: test_shares.py share BUILD [TURN]   TURN (0 to 9, default: the commit's), and those that ctest is to run, for its
+usage: test_shares.py share BUILD [TURN]   TURN (0 to 19, default: the commit's), and those that ctest is to run, for its
                                            option -I; then, for people, which these are
        test_shares.py left-out BUILD       for people: what a run without them leaves out, and how to run it
        test_shares.py measured BUILD       writes the times of the last scripts/test into tests/seconds.txt
@@ -20,7 +20,7 @@ from pathlib import Path
 
 TREE = Path(__file__).resolve().parents[2]
 LONG = {"statistics", "nightly"}
-TURNS = 10
+TURNS = 20
 USUAL_S = 20.0  # typical time of a test without a measured time
 CORES = 2       # of the machine for which times are printed
 
@@ -63,7 +63,7 @@ def git(tree, *arguments):
 
 
 def turn_of_commit(tree):
-    """The share of a commit: the number of earlier commits modulo ten, or the day if there is no history."""
+    """The share of a commit: the number of earlier commits modulo twenty, or the day if there is no history."""
     if git(tree, "rev-parse", "--is-shallow-repository") == "false" and (count := git(tree, "rev-list", "--count", "HEAD")):
         return int(count) % TURNS
     return int(time.time() / 86400) % TURNS
@@ -89,7 +89,7 @@ def share(build, seconds, turn):
 def left_out(build, seconds):
     names = [name for _, name in listed(build)]
     print(f"left out: {len(names)} tests labelled statistics or nightly, some {minutes(names, seconds)} min on {CORES} cores: "
-          "`scripts/test --all` runs them too, `scripts/test --share` a tenth of them")
+          "`scripts/test --all` runs them too, `scripts/test --share` a twentieth of them")
 
 
 def measured(build, file):

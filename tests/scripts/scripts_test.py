@@ -198,9 +198,9 @@ def share_of(place, *turn):
     return int(lines[0]), [int(number) for number in lines[1].split(",")]
 
 
-def what_takes_long_is_dealt_into_ten_shares(place):
+def what_takes_long_is_dealt_into_twenty_shares(place):
     names = tests_that_take_long(place)
-    shares = [[names[number - 1] for number in share_of(place, str(turn))[1]] for turn in range(10)]
+    shares = [[names[number - 1] for number in share_of(place, str(turn))[1]] for turn in range(20)]
     if sorted(name for share in shares for name in share) != sorted(LONG):
         fail(f"not each in one share: {shares}")
     seconds = {name: float(time_s) for time_s, name in (line.split() for line in SECONDS.splitlines()[1:])}
@@ -212,26 +212,26 @@ def what_takes_long_is_dealt_into_ten_shares(place):
     listing["tests"].append({"name": "Runs.AreMore", "properties": [{"name": "LABELS", "value": ["statistics"]}]})
     (place.folder / "listing.json").write_text(json.dumps(listing))
     names.append("Runs.AreMore")
-    later = [[names[number - 1] for number in share_of(place, str(turn))[1]] for turn in range(10)]
+    later = [[names[number - 1] for number in share_of(place, str(turn))[1]] for turn in range(20)]
     if [[name for name in share if name != "Runs.AreMore"] for share in later] != shares or sum(map(len, later)) != 41:
         fail(f"{shares}, then {later}")
 
 
-def ten_commits_in_a_row_have_all_turns(place):
+def twenty_commits_in_a_row_have_all_turns(place):
     tests_that_take_long(place)
 
     def git(*arguments):
         author = ["-c", "user.name=a", "-c", "user.email=a@b"]
         subprocess.run(["git", *author, *arguments], cwd=place.folder, check=True, capture_output=True)
 
-    if not 0 <= share_of(place)[0] <= 9:
+    if not 0 <= share_of(place)[0] <= 19:
         fail("there is no turn without commits")
     git("init", "--quiet")
     turns = []
-    for number in range(11):
+    for number in range(21):
         git("commit", "--quiet", "--allow-empty", "--message", str(number))
         turns.append(share_of(place)[0])
-    if sorted(turns[:10]) != list(range(10)) or turns[10] != turns[0] or share_of(place)[0] != turns[10]:
+    if sorted(turns[:20]) != list(range(20)) or turns[20] != turns[0] or share_of(place)[0] != turns[20]:
         fail(f"turns: {turns}")
 
 
@@ -258,7 +258,7 @@ def what_is_left_out_is_told(place):
             fail(f"{arguments}: {which}, {told}, {last}")
     which, (told, last) = chosen("--share", "3")
     numbers = ",".join(str(number) for number in share_of(place, "3")[1])
-    if which != f"--tests-information 0,0,0,{numbers}" or not told.startswith("share 3 of 0 to 9: ") or last != passed:
+    if which != f"--tests-information 0,0,0,{numbers}" or not told.startswith("share 3 of 0 to 19: ") or last != passed:
         fail(f"{which}, {told}, {last}")
 
 
