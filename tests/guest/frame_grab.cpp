@@ -34,12 +34,16 @@ struct GrabWords {
 };
 
 /// Applies the assignments. "mode=auto" belongs to the table of the camera's kind, "camera.silent_s=2" to another table
-/// under [daemon].
+/// under [daemon]. "formats=YUYV" is no key of the daemon, which chooses among a camera's formats itself.
 bool apply(const GrabWords& words, azimuth::DaemonSettings& settings) {
   std::vector<azimuth::Section> sections = azimuth::daemon_sections(settings);
   const std::vector<azimuth::Section*> tables = azimuth::pointers(sections);
   azimuth::FileErrors violations;
   for (const std::string& assignment : words.assignments) {
+    if (constexpr std::string_view kFormats = "formats="; assignment.starts_with(kFormats)) {
+      settings.live.v4l2.formats = assignment.substr(kFormats.size());
+      continue;
+    }
     const bool elsewhere = assignment.substr(0, assignment.find('=')).find('.') != std::string::npos;
     const std::string whole = "daemon." + (elsewhere ? "" : words.kind + ".") + assignment;
     for (const azimuth::FileError& violation : azimuth::apply_override(whole, tables)) violations.push_back(violation);
@@ -125,7 +129,8 @@ int run(int argc, char** argv) {
       "number, how many corrupt ones there have been, 1 when it is a whole test image of usb_camera, and a digest of "
       "its bytes; then the counters. Events go to standard error.");
   app.add_option("KIND", words.kind, "iidc or v4l2")->required()->check(CLI::IsMember({"iidc", "v4l2"}));
-  app.add_option("KEY=VALUE", words.assignments, "Settings of [daemon.KIND]; with a table's name, of another one");
+  app.add_option("KEY=VALUE", words.assignments,
+                 "Settings of [daemon.KIND]; with a table's name, of another one; formats=CODE of V4L2");
   app.add_option("--frames", words.frames, "Exit code 0 when so many came")->capture_default_str();
   app.add_option("--for", words.for_s, "Seconds at most")->capture_default_str();
   app.add_flag("--until-failed", words.until_failed, "Exit code 0 when the camera fails or falls silent, after images");

@@ -96,8 +96,8 @@ def configuration():
         fail("no rig to check with")
     for rig in rigs:
         checked = run(AZIMUTHD, "--check-config", "--config", SYSTEMD / "azimuthd.toml", "--rig", rig)
-        if checked.returncode or not checked.stdout.startswith(f"right: {SYSTEMD / 'azimuthd.toml'} and {rig}; "):
-            fail(f"with {rig.name}: {checked.stdout}")
+        if checked.returncode or checked.stderr or not checked.stdout.startswith(f"right: {SYSTEMD / 'azimuthd.toml'} and {rig}; "):
+            fail(f"with {rig.name}: {checked.stdout}{checked.stderr}")
     condition = settings_of(UNIT)["ConditionPathExists"][0]
     if f'rig = "{condition}"' not in (SYSTEMD / "azimuthd.toml").read_text():
         fail(f"the unit waits for {condition}, which is not what the configuration names")

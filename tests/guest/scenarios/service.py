@@ -30,7 +30,6 @@ latency_s = 0.06     # of the emulated one: 45 to 80 ms
 [daemon.map]
 file = "/var/lib/azimuth/map.azmap"
 save_interval_s = 3.0
-fastest_m_per_s = 0.8
 [daemon.realtime]
 lock_memory = true
 deadline_ms = 800
