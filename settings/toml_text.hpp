@@ -17,8 +17,8 @@ struct ParsedToml {
 };
 
 /// Parses the text. The TOML library stops at the first error; therefore the function reports a bad or repeated
-/// `key = value` line, blanks it and parses the rest again, so that one error does not hide the others. A text beyond
-/// the limits of toml_bounds.hpp is not parsed.
+/// `key = value` line, blanks it and parses the rest again, so that one error does not hide the others. A text larger
+/// than kLargestSettings, or with more levels than any setting has, is not parsed.
 ParsedToml parse_toml(std::string_view text, const std::string& file);
 
 }  // namespace azimuth

@@ -1,10 +1,54 @@
 #pragma once
-#include "daemon/devices/background_opener.hpp"
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
 #include "daemon/devices/polled_source.hpp"
 #include "daemon/devices/usb_help.hpp"
 #include "drivers/camera/camera_driver.hpp"
+#include "drivers/camera/image_stream.hpp"
 
 namespace azimuth {
+
+/// Opens and closes a camera's streams on a thread of its own. A hanging device can block either call for seconds, and
+/// the source's thread must send heartbeats for the watchdog.
+///
+/// The streams are wrapped: destroying one hands the real stream to that thread. The thread closes all such streams
+/// before it opens another, so a camera is never open twice.
+///
+/// Thread contract: open() and the streams belong to one thread. The destructor waits for the device.
+class BackgroundOpener {
+ public:
+  explicit BackgroundOpener(StreamOpener open);
+  BackgroundOpener(const BackgroundOpener&) = delete;
+  BackgroundOpener& operator=(const BackgroundOpener&) = delete;
+  ~BackgroundOpener();
+
+  /// The function for CameraDriver: starts to open the camera, and returns the result once it is known. Does not block.
+  OpenedStream open();
+
+  /// The data shared by the two threads. It lives as long as any stream.
+  struct Desk {
+    std::mutex mutex;
+    std::condition_variable work;
+    /// An opening has been requested and its result has not been fetched yet.
+    bool opening = false;
+    bool begun = false;  ///< the thread has started the opening, or finished it
+    bool quit = false;
+    std::optional<OpenedStream> opened;
+    std::vector<std::unique_ptr<ImageStream>> to_close;
+  };
+
+ private:
+  void run();
+
+  StreamOpener open_;
+  std::shared_ptr<Desk> desk_ = std::make_shared<Desk>();
+  std::jthread thread_;  // declared last because it uses the other members
+};
 
 /// Images of a camera that the daemon opens itself.
 class CameraSource final : public PolledSource {

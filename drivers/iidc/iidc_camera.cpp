@@ -4,11 +4,12 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <optional>
 #include <span>
+#include <system_error>
 
 #include "drivers/iidc/iidc_text.hpp"
-#include "drivers/iidc/iidc_usb_port.hpp"
 
 namespace azimuth::iidc {
 namespace {
@@ -74,6 +75,12 @@ bool is_on_usb(dc1394camera_t* camera) {
          std::string_view(platform) == "usb";
 }
 
+bool has_number(const std::filesystem::path& file, std::uint32_t expected) {
+  std::ifstream in(file);
+  std::uint32_t number = 0;
+  return in >> number && number == expected;
+}
+
 }  // namespace
 
 void silence_library() {
@@ -122,6 +129,15 @@ tl::expected<OpenCamera, CameraTrouble> find_camera(const IidcSettings& settings
 std::uint32_t bus_generation(const OpenCamera& camera) {
   std::uint32_t node = 0, generation = 0;
   return dc1394_camera_get_node(camera.get(), &node, &generation) == DC1394_SUCCESS ? generation : 0;
+}
+
+std::string usb_port_of(std::uint32_t bus, std::uint32_t address, const std::filesystem::path& devices) {
+  std::error_code error;
+  for (std::filesystem::directory_iterator device(devices, error), end; !error && device != end;
+       device.increment(error))
+    if (has_number(device->path() / "busnum", bus) && has_number(device->path() / "devnum", address))
+      return device->path().filename();
+  return {};
 }
 
 std::string usb_port_of(const OpenCamera& camera) {

@@ -2,7 +2,9 @@
 // The camera as an object of libdc1394: how it is found and opened, and the texts of its errors. Internal to
 // drivers/iidc.
 
+#include <cstdint>
 #include <dc1394/dc1394.h>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -52,5 +54,9 @@ std::uint32_t bus_generation(const OpenCamera& camera);
 
 /// The port of a camera on USB; empty if it is on FireWire or cannot be found.
 std::string usb_port_of(const OpenCamera& camera);
+
+/// The port (its name in sysfs, "1-2.3") of the USB device with this bus number and address. Empty: there is none.
+/// `devices` is /sys/bus/usb/devices, or a similar folder in tests.
+std::string usb_port_of(std::uint32_t bus, std::uint32_t address, const std::filesystem::path& devices);
 
 }  // namespace azimuth::iidc

@@ -1,15 +1,22 @@
 #include "drivers/iidc/iidc_stream.hpp"
 
+#include <bit>
 #include <cerrno>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <memory>
+#include <optional>
 #include <poll.h>
+#include <span>
 #include <unistd.h>
 #include <utility>
+#include <vector>
 
 #include "base/clocks.hpp"
+#include "drivers/camera/frame.hpp"
 #include "drivers/iidc/iidc_camera.hpp"
 #include "drivers/iidc/iidc_features.hpp"
-#include "drivers/iidc/iidc_frames.hpp"
 #include "drivers/iidc/iidc_setup.hpp"
 #include "drivers/iidc/iidc_stamps.hpp"
 #include "drivers/iidc/iidc_text.hpp"
@@ -66,6 +73,34 @@ class Capture {
   dc1394camera_t* camera_;
   int descriptor_ = -1;
   bool set_up_ = false, sending_ = false;
+};
+
+/// The driver's own buffers for images. Thread contract: as for FramePool.
+class IidcFrames : public FramePool {
+ public:
+  /// Enough for the images that a driver holds unread and those on their way to perception.
+  static constexpr unsigned kSlots = 10;
+
+  explicit IidcFrames(const FrameFormat& format)
+      : FramePool(UniqueFd{}), bytes_(format.bytes()), memory_(kSlots * bytes_) {}
+
+  /// A buffer that is not leased. It stays free until lease().
+  std::optional<unsigned> free_slot() {
+    free_ |= take_returned();
+    return free_ == 0 ? std::nullopt : std::optional(static_cast<unsigned>(std::countr_zero(free_)));
+  }
+  std::span<std::byte> buffer(unsigned slot) { return std::span(memory_).subspan(slot * bytes_, bytes_); }
+
+  /// `self` owns this object.
+  static Frame lease(const std::shared_ptr<IidcFrames>& self, unsigned slot, const FrameFormat& format) {
+    self->free_ &= ~(1U << slot);
+    return {self, slot, format, self->buffer(slot)};
+  }
+
+ private:
+  std::size_t bytes_;
+  std::vector<std::byte> memory_;
+  std::uint32_t free_ = (1U << kSlots) - 1;
 };
 
 class IidcStream : public ImageStream {

@@ -2,19 +2,21 @@
 
 #include <algorithm>
 #include <arpa/inet.h>
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <fcntl.h>
+#include <linux/serial.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <string_view>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <system_error>
 #include <termios.h>
 #include <unistd.h>
-
-#include "drivers/pioneer/serial_line.hpp"
 
 namespace azimuth::pioneer {
 namespace {
@@ -39,6 +41,62 @@ std::optional<sockaddr_in> parse_address(std::string_view text) {
 
 bool means_later(int error_number) {
   return error_number == EAGAIN || error_number == EWOULDBLOCK || error_number == EINTR;
+}
+
+// The termios calls of Linux for a serial line. All functions with a result return 0 or errno.
+
+struct Rate {
+  int baud;
+  speed_t speed;
+};
+constexpr std::array kRates{Rate{1200, B1200},     Rate{2400, B2400},     Rate{4800, B4800},    Rate{9600, B9600},
+                            Rate{19200, B19200},   Rate{38400, B38400},   Rate{57600, B57600},  Rate{115200, B115200},
+                            Rate{230400, B230400}, Rate{460800, B460800}, Rate{921600, B921600}};
+
+int result(int returned) { return returned < 0 ? errno : 0; }
+
+/// Raw 8N1 without flow control, receiver on, modem lines ignored; the rate is not changed.
+int make_raw(int fd) {
+  termios line{};
+  if (::tcgetattr(fd, &line) < 0) return errno;
+  ::cfmakeraw(&line);
+  line.c_cflag &= ~static_cast<tcflag_t>(CSTOPB | CRTSCTS | PARENB);
+  line.c_cflag |= CLOCAL | CREAD | CS8;
+  line.c_iflag &= ~static_cast<tcflag_t>(IXON | IXOFF | IXANY | INPCK);
+  line.c_cc[VMIN] = 1;  // so that a read of 0 bytes means that the line was hung up
+  line.c_cc[VTIME] = 0;
+  return result(::tcsetattr(fd, TCSANOW, &line));
+}
+
+/// Prevents other processes from opening the line. Pseudo-terminals, which are used in tests, stay open to all: a
+/// pseudo-terminal keeps the claim after its last close, as long as its other side exists, so nobody could open it
+/// again.
+int claim_exclusively(int fd) {
+  constexpr unsigned kFirstPty = 136, kLastPty = 143;  // major device numbers
+  struct stat node {};
+  if (::fstat(fd, &node) < 0) return errno;
+  const unsigned kind = major(node.st_rdev);
+  if (kind >= kFirstPty && kind <= kLastPty) return 0;
+  return result(::ioctl(fd, TIOCEXCL));
+}
+
+/// Asks the adapter to pass bytes on without delay. A line that does not support this is not an error.
+void ask_for_low_latency(int fd) {
+  serial_struct serial{};
+  if (::ioctl(fd, TIOCGSERIAL, &serial) < 0) return;
+  serial.flags |= ASYNC_LOW_LATENCY;
+  ::ioctl(fd, TIOCSSERIAL, &serial);
+}
+
+/// Sets the baud rate. EINVAL: termios does not have the rate.
+int set_line_baud(int fd, int baud) {
+  const auto rate = std::ranges::find(kRates, baud, &Rate::baud);
+  if (rate == kRates.end()) return EINVAL;
+  termios line{};
+  if (::tcgetattr(fd, &line) < 0) return errno;
+  ::cfsetispeed(&line, rate->speed);
+  ::cfsetospeed(&line, rate->speed);
+  return result(::tcsetattr(fd, TCSANOW, &line));
 }
 
 }  // namespace

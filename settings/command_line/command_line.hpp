@@ -15,6 +15,16 @@ constexpr const char* CLI::detail::type_name<std::filesystem::path>() {
 
 namespace azimuth {
 
+/// The hidden option that prints description() and ends the program.
+inline constexpr const char* kDescribe = "--describe-command-line";
+
+/// Describes `app`, its commands and their options as JSON. Manual pages (packaging/man/) and the shells' completions
+/// (completion/) are made from the description. Options without a group are hidden and left out.
+///
+/// A command is {name, about, footer, options, commands}, an option {names, positional, value, choices, limits,
+/// default, required, repeats, about}; `value` is empty for a flag.
+std::string description(const CLI::App& app);
+
 inline constexpr int kWrongUsage = 2;  ///< exit code
 
 /// The type name of an option that takes one of a few words and checks the word itself. Like CLI::IsMember, it shows

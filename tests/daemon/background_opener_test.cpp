@@ -1,10 +1,9 @@
-#include "daemon/devices/background_opener.hpp"
-
 #include <atomic>
 #include <chrono>
 #include <functional>
 #include <gtest/gtest.h>
 
+#include "daemon/devices/camera_source.hpp"
 #include "tests/drivers/camera/fake_stream.hpp"
 
 namespace azimuth {

@@ -1,8 +1,7 @@
-#include "daemon/devices/event_relay.hpp"
-
 #include <gtest/gtest.h>
 
 #include "base/ring.hpp"
+#include "daemon/devices/polled_source.hpp"
 #include "tests/support/allocation_counter.hpp"
 
 namespace azimuth {

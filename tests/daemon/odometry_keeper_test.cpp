@@ -6,8 +6,8 @@
 #include <fstream>
 #include <gtest/gtest.h>
 
+#include "daemon/daemon_setup.hpp"
 #include "daemon/keep/map_keeper.hpp"
-#include "daemon/saved_odometry.hpp"
 #include "drivers/storage/map_codec.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -1,7 +1,6 @@
-#include "daemon/pipeline/run_player.hpp"
-
 #include <gtest/gtest.h>
 
+#include "daemon/pipeline/played_source.hpp"
 #include "tests/daemon/small_run.hpp"
 
 namespace azimuth {

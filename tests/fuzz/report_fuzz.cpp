@@ -9,7 +9,7 @@
 
 #include "tools/compare/compare_json.hpp"
 #include "tools/compare/compare_text.hpp"
-#include "tools/compare/run_report.hpp"
+#include "tools/compare/report_files.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace azimuth;

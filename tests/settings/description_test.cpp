@@ -1,5 +1,3 @@
-#include "settings/command_line/description.hpp"
-
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <vector>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <fmt/format.h>
 #include <fstream>
 #include <memory>
@@ -17,7 +18,6 @@
 #include "tools/azimuth/command.hpp"
 #include "tools/azimuth/convert_run.hpp"
 #include "tools/azimuth/import_options.hpp"
-#include "tools/azimuth/interrupt.hpp"
 #include "tools/azimuth/output_path.hpp"
 #include "tools/import/bag_file.hpp"
 
@@ -27,6 +27,46 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kRig = "rig.toml";
+
+volatile std::sig_atomic_t interrupted = 0;
+
+void note(int /*signal*/) { interrupted = 1; }
+
+constexpr int kSignals[] = {SIGINT, SIGTERM};
+
+/// While an object of this class lives, the first Ctrl-C or SIGTERM is only noted, so that half-written output can be
+/// removed. The next signal ends the program at once. At most one object may live at a time.
+///
+/// Thread contract: for single-threaded programs.
+class Interruptible {
+ public:
+  Interruptible() {
+    interrupted = 0;
+    struct sigaction action {};
+    action.sa_handler = note;
+    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    for (const int signal : kSignals) {
+      struct sigaction before {};
+      ::sigaction(signal, nullptr, &before);
+      if (before.sa_handler != SIG_IGN)
+        ::sigaction(signal, &action, nullptr);  // nohup and background jobs ignore signals
+    }
+  }
+  ~Interruptible() {
+    for (const int signal : kSignals) {
+      struct sigaction now {};
+      ::sigaction(signal, nullptr, &now);
+      if (now.sa_handler == note) std::signal(signal, SIG_DFL);
+    }
+  }
+  Interruptible(const Interruptible&) = delete;
+  Interruptible& operator=(const Interruptible&) = delete;
+
+  /// Throws CommandError with kInterrupted once a signal was noted.
+  static void check() {
+    if (interrupted != 0) throw CommandError{kInterrupted, "interrupted: nothing was written"};
+  }
+};
 
 /// Refuses an input file that the output would replace.
 void refuse_own_output(const fs::path& input, const fs::path& out) {

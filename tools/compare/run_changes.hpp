@@ -1,9 +1,20 @@
 #pragma once
-// Compares one run with its baseline. Internal to tools/compare.
+// Groups reports by the names of their runs, and compares one run with its baseline. Internal to tools/compare.
 
-#include "tools/compare/paired_runs.hpp"
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tools/compare/comparison.hpp"
 
 namespace azimuth {
+
+/// Reports of one run with different seeds, in ascending order of seeds.
+using Repeats = std::vector<const RunReport*>;
+
+/// The runs of one side. Failed runs go to `failed`; `comparison` records duplicates and reports in an older format.
+std::map<std::string, Repeats> runs_by_name(const Reports& reports, Comparison& comparison,
+                                            std::vector<FailedRun>& failed);
 
 /// Changes of all figures; `before` may be empty. Trends of repeated seeds ignore that other runs are tested too:
 /// settle_repeated() corrects them.

@@ -4,12 +4,22 @@
 #include <span>
 
 #include "slam/geometry/pose2.hpp"
-#include "tools/evaluate/map_pairing.hpp"
+#include "slam/sample/bearings.hpp"
 #include "tools/evaluate/statistics.hpp"
 
 namespace azimuth {
 
-/// Map error with landmarks paired by position in the plane (see pair_by_place()).
+/// A landmark with the identity from the sensor or from the survey.
+struct NamedPoint {
+  Identity identity = kUnknownIdentity;
+  Eigen::Vector2d p_m = Eigen::Vector2d::Zero();
+  double z_m = kNotMeasured;  ///< height above the floor; not measured for planar landmarks
+  // Uncertainty of the position; zero for true landmarks.
+  Eigen::Matrix2d covariance_m2 = Eigen::Matrix2d::Zero();
+  double sigma_z_m = 0.0;
+};
+
+/// Map error with landmarks paired by position in the plane (see pair_by_place() in map_error.cpp).
 /// landmarks = matched + duplicates + phantoms.
 struct MapError {
   std::size_t landmarks = 0;  ///< estimated landmarks

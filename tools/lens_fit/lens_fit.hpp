@@ -8,6 +8,7 @@
 
 #include "slam/geometry/motion.hpp"
 #include "tools/lens_fit/lens.hpp"
+#include "tools/lens_fit/robust_fit.hpp"
 
 namespace azimuth {
 
@@ -66,5 +67,14 @@ struct LensSolution {
 /// Fits from `start` with a damped Gauss-Newton method and the Cauchy kernel on observations. Nothing if the
 /// measurements do not determine the unknowns. Deterministic. Thread contract: reentrant, allocates.
 std::optional<LensSolution> fit_lens(const LensDrive& drive, const LensSolution& start, const LensPriors& priors);
+
+// Only fit_lens() and the test of its Jacobian use the following.
+
+/// Unknowns: the kThroughout global numbers, then (x, y, heading) of each frame, then (x, y, height) of each lamp.
+using LensEquations = FitEquations;
+
+LensEquations lens_equations(const LensDrive& drive, const LensSolution& at, const LensSolution& start,
+                             const LensPriors& priors);
+LensSolution lens_moved(LensSolution from, const Eigen::VectorXd& by);
 
 }  // namespace azimuth

@@ -4,10 +4,19 @@
 #include <optional>
 #include <string>
 
+#include "base/file_result.hpp"
 #include "drivers/storage/log_summary.hpp"
-#include "tools/log_index/find_logs.hpp"
 
 namespace azimuth {
+
+/// A session folder with segments, or a log in a single file.
+struct FoundLog {
+  std::string path;               ///< relative to the searched folder
+  std::uint64_t bytes = 0;        ///< size without separately stored images
+  std::uint64_t image_bytes = 0;  ///< size of separately stored images
+  std::uint64_t files = 0;        ///< number of segments; 1 for a single file
+  std::int64_t changed_ns = 0;    ///< latest modification time of its files, on the file system's clock
+};
 
 /// The catalogue entry of a log. Unknown values are empty.
 struct CatalogueRow {

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <functional>
+#include <glib.h>
+#include <memory>
 #include <set>
 #include <vector>
 
 #include "tools/page/base64.hpp"
 #include "tools/page/page_files.hpp"
-#include "tools/page/sha256.hpp"
 
 namespace azimuth {
 namespace {
@@ -112,6 +113,16 @@ std::string html_page(std::string_view title, std::string_view data, std::string
   page += "<script type=\"application/json\" id=\"data\">" + json_in_html(data) + "</script>\n";
   page += "<script type=\"module\">" + script + "</script>\n</body>\n</html>\n";
   return page;
+}
+
+std::array<std::byte, 32> sha256(std::string_view text) {
+  const std::unique_ptr<GChecksum, decltype(&g_checksum_free)> checksum(g_checksum_new(G_CHECKSUM_SHA256),
+                                                                        &g_checksum_free);
+  g_checksum_update(checksum.get(), reinterpret_cast<const guchar*>(text.data()), static_cast<gssize>(text.size()));
+  std::array<std::byte, 32> digest{};
+  gsize size = digest.size();
+  g_checksum_get_digest(checksum.get(), reinterpret_cast<guint8*>(digest.data()), &size);
+  return digest;
 }
 
 }  // namespace azimuth

@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -18,5 +20,8 @@ std::string json_in_html(std::string_view json);
 /// Concatenates a module and the modules it imports into one script, without `import ... from './file.js';` and
 /// `export`. Both must be at the beginning of a line, and an import must be on one line.
 std::string joined_modules(std::string_view module = "report.js");
+
+/// SHA-256 (FIPS 180-4), by which a Content-Security-Policy identifies a script. Reentrant.
+std::array<std::byte, 32> sha256(std::string_view text);
 
 }  // namespace azimuth

@@ -1,5 +1,5 @@
 #pragma once
-// The picture of a replay: true path, estimated path and map.
+// The picture of a replay: true path, estimated path and map, with the covariance ellipses of poses and landmarks.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -10,7 +10,6 @@
 
 #include "slam/geometry/pose2.hpp"
 #include "tools/plot/clip.hpp"
-#include "tools/plot/ellipse.hpp"
 #include "tools/plot/landmark_style.hpp"
 
 namespace azimuth {
@@ -19,6 +18,12 @@ namespace azimuth {
 struct PathPiece {
   PlotLine line;
   bool lost = false;  ///< the estimator was lost
+};
+
+/// A point with its covariance.
+struct UncertainPoint {
+  Eigen::Vector2d p_map_m = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d covariance_m2 = Eigen::Matrix2d::Zero();
 };
 
 struct PlottedLandmark {
@@ -51,5 +56,18 @@ struct MapPicture {
 /// reason if it fails.
 [[nodiscard]] std::optional<std::string> write_map_picture(const MapPicture& picture,
                                                            const std::filesystem::path& file);
+
+inline constexpr double kDrawnSigmas = 2.0;
+
+/// Semi-major axis of the ellipse of kDrawnSigmas [m]; infinite if the covariance is not finite.
+double semi_major_m(const UncertainPoint& point);
+
+/// Polygon approximation of the ellipse of kDrawnSigmas in the map frame.
+std::vector<Eigen::Vector2d> ellipse_outline_m(const UncertainPoint& point);
+
+/// Opacity factor of an ellipse in a view whose shorter side has length `view_m`. It is 1 up to a diameter of a tenth
+/// of the view, decreases for larger ellipses so that all need about the same ink, and is 0 if the diameter exceeds the
+/// view.
+double ellipse_ink(double semi_major_m, double view_m);
 
 }  // namespace azimuth

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "drivers/iidc/iidc_usb_port.hpp"
+#include "drivers/iidc/iidc_camera.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace azimuth::iidc {

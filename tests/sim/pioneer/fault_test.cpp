@@ -1,7 +1,5 @@
 // The names of faults on the command line, and their timing.
 
-#include "sim/pioneer/fault.hpp"
-
 #include <gtest/gtest.h>
 
 #include "sim/pioneer/fault_schedule.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "sim/pioneer/fault.hpp"
+#include "sim/pioneer/fault_schedule.hpp"
 #include "tests/sim/pioneer/plain_client.hpp"
 
 namespace azimuth::sim {

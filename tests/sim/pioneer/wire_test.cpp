@@ -1,9 +1,9 @@
-#include "sim/pioneer/wire.hpp"
-
 #include <algorithm>
 #include <bit>
 #include <gtest/gtest.h>
 #include <numeric>
+
+#include "sim/pioneer/simulated_pioneer.hpp"
 
 namespace azimuth::sim {
 namespace {

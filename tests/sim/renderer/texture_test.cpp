@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/renderer/procedural.hpp"
-#include "sim/renderer/surface.hpp"
+#include "sim/renderer/room_pass.hpp"
 
 namespace azimuth {
 namespace {

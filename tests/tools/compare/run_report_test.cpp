@@ -1,5 +1,3 @@
-#include "tools/compare/run_report.hpp"
-
 #include <cmath>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -7,6 +5,7 @@
 
 #include "tests/support/temporary_folder.hpp"
 #include "tests/tools/compare/made_reports.hpp"
+#include "tools/compare/report_files.hpp"
 
 namespace azimuth {
 namespace {

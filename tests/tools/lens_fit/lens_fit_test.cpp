@@ -6,7 +6,6 @@
 
 #include "tests/tools/lens_fit/simulated_lens_drive.hpp"
 #include "tools/lens_fit/fisheye_calibration.hpp"
-#include "tools/lens_fit/lens_equations.hpp"
 
 namespace azimuth {
 namespace {

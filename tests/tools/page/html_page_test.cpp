@@ -8,7 +8,6 @@
 
 #include "tools/page/base64.hpp"
 #include "tools/page/page_files.hpp"
-#include "tools/page/sha256.hpp"
 
 namespace azimuth {
 namespace {

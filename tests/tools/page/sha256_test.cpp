@@ -1,10 +1,9 @@
-#include "tools/page/sha256.hpp"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <string>
 
 #include "tools/page/base64.hpp"
+#include "tools/page/html_page.hpp"
 
 namespace azimuth {
 namespace {

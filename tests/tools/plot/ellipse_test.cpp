@@ -1,8 +1,8 @@
-#include "tools/plot/ellipse.hpp"
-
 #include <Eigen/LU>
 #include <cmath>
 #include <gtest/gtest.h>
+
+#include "tools/plot/map_picture.hpp"
 
 namespace azimuth {
 namespace {

@@ -1,7 +1,7 @@
-#include "tools/view/fates.hpp"
-
 #include <gmock/gmock.h>
 #include <limits>
+
+#include "tools/view/shown_bearings.hpp"
 
 namespace azimuth::test {
 namespace {

@@ -1,8 +1,8 @@
-#include "tools/view/landmark_history.hpp"
-
 #include <gmock/gmock.h>
 #include <limits>
 #include <vector>
+
+#include "tools/view/shown_map.hpp"
 
 namespace azimuth::test {
 namespace {

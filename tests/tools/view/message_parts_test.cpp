@@ -1,8 +1,8 @@
-#include "tools/view/message_parts.hpp"
-
 #include <algorithm>
 #include <gmock/gmock.h>
 #include <vector>
+
+#include "tools/view/lcm_intake.hpp"
 
 namespace azimuth::test {
 namespace {

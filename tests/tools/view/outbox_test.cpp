@@ -1,8 +1,7 @@
-#include "tools/view/outbox.hpp"
-
 #include <gmock/gmock.h>
 
 #include "tests/tools/view/seen_events.hpp"
+#include "tools/view/lookers.hpp"
 
 namespace azimuth::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "tools/view/outbox.hpp"
+#include "tools/view/lookers.hpp"
 
 #include <algorithm>
 #include <utility>
