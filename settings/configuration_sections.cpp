@@ -88,8 +88,8 @@ Section smoother_section(HindsightSettings& smoother) {
         "Believe the names that bearings carry, where the rig says identities = true. false: tell landmarks apart by "
         "where they are."},
        {"doubt_rig", &smoother.doubt_rig,
-        "Estimate odometer, mounting and noise wherever the drive contradicts the rig's values and their sigma_..., "
-        "where landmarks have names. false: always believe the rig."},
+        "Estimate odometer, mounting and noise wherever the drive contradicts the rig's values and their sigma_...; "
+        "without names, only the camera's heading. false: always believe the rig."},
        {"thinning_s", &smoother.thinning_s, "At most one bearing per named landmark in this time is used; 0: all.",
         from_to(0, 60)},
        {"nameless_thinning_s", &smoother.nameless_thinning_s,

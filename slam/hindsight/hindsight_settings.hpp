@@ -6,8 +6,8 @@ namespace azimuth {
 /// Settings of the smoother estimator (mathematics VI.18 to VI.20), besides the values of the rig.
 struct HindsightSettings {
   bool names = true;  ///< use the identities of bearings; false: ignore them
-  /// Whether the rig's calibration may be contradicted by the drive, and the noise adapted to the residuals, where
-  /// landmarks have identities; false: the rig is always believed.
+  /// Whether the rig's calibration may be contradicted by the drive, and the noise adapted to the residuals. Without
+  /// identities, only the camera's yaw may be contradicted. false: the rig is always believed.
   bool doubt_rig = true;
   /// Whether covariances include the rig's sigma_scale_distance, an error that bearings cannot reveal; false: the scale
   /// is taken as exact.

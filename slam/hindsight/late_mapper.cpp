@@ -112,6 +112,9 @@ void LateMapper::learn(Known& known) const {
   known.since_anchor = mapper_->since_anchor();
   known.doubt = mapper_->doubt();
   known.scene = mapper_->scene();
+  known.rig = mapper_->rig();
+  known.calibration = mapper_->calibration();
+  known.calibration_sigma = mapper_->calibration_sigma();
 }
 
 PoseGaussian LateMapper::pose() const {

@@ -38,6 +38,9 @@ class LateMapper final : public Mapper {
   Motion since_anchor() const override;
   std::optional<Judgement> doubt() const override { return known_.doubt; }
   std::optional<Scene> scene() const override { return known_.scene; }
+  std::optional<RigBelief> rig() const override { return known_.rig; }
+  Calibration calibration() const override { return known_.calibration; }
+  Calibration calibration_sigma() const override { return known_.calibration_sigma; }
 
  private:
   /// An image that is not yet processed, and the motion from the image before it.
@@ -58,6 +61,8 @@ class LateMapper final : public Mapper {
     Motion since_anchor;
     std::optional<Judgement> doubt;
     std::optional<Scene> scene;
+    std::optional<RigBelief> rig;
+    Calibration calibration = Calibration::Zero(), calibration_sigma = Calibration::Zero();
   };
   void look_at_all();
   void look_at_waiting();

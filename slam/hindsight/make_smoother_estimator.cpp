@@ -78,6 +78,8 @@ std::unique_ptr<Mapper> nameless_mapper(const Rig& rig, const HindsightSettings&
   if (settings.members > 0) nameless.beam.members = settings.members;
   nameless.sigma_scale_distance = rig.odometry.sigma_scale_distance;
   nameless.sigma_scale_turn = rig.odometry.sigma_scale_turn;
+  nameless.sigma_yaw_rad = rig.camera.sigma_yaw_rad;
+  if (settings.doubt_rig) nameless.sigma_yaw_if_wrong_rad = wrong_rig::kYaw_rad;
   return std::make_unique<LateMapper>(
       std::make_unique<NamelessMapper>(nameless, helpers.make_workers(settings.threads)), helpers.make_task_runner());
 }

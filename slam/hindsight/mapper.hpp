@@ -98,6 +98,9 @@ class Mapper {
 
   /// The rig belief that the mapper uses; empty: the rig unchanged.
   virtual std::optional<RigBelief> rig() const { return std::nullopt; }
+  /// Errors of the rig's values as estimated, and their standard deviations.
+  virtual Calibration calibration() const { return smoother().graph().calibration(); }
+  virtual Calibration calibration_sigma() const { return smoother().calibration_covariance().diagonal().cwiseSqrt(); }
 
   /// The detection model that the mapper has learned; empty: it learns none.
   virtual std::optional<Scene> scene() const { return std::nullopt; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "slam/geometry/angle.hpp"
 #include "slam/geometry/index.hpp"
 
 namespace azimuth {
@@ -41,7 +42,7 @@ void NamelessMapper::list_heard() {
     if (landmark == kOfNothing) continue;
     const BearingMeasurement& bearing = graph.bearing(id);
     heard_.push_back({.landmark_id = known(landmark).id,
-                      .azimuth_rad = bearing.azimuth_rad,
+                      .azimuth_rad = wrap(bearing.azimuth_rad - nameless_.camera_yaw().error_rad),
                       .sigma_rad = bearing.sigma_rad,
                       .established = true,
                       .agrees = true});
@@ -107,6 +108,25 @@ void NamelessMapper::place(const PoseGaussian& robot) {
 PoseGaussian NamelessMapper::pose() const {
   const Beam::PoseBelief belief = nameless_.pose();
   return {belief.T_map_body, belief.covariance};
+}
+
+std::optional<RigBelief> NamelessMapper::rig() const {
+  if (!nameless_.camera_yaw().doubted) return std::nullopt;
+  RigBelief rig;
+  rig.doubted[calibration::yaw] = true;
+  return rig;
+}
+
+Calibration NamelessMapper::calibration() const {
+  Calibration error = Calibration::Zero();
+  error[calibration::yaw] = nameless_.camera_yaw().error_rad;
+  return error;
+}
+
+Calibration NamelessMapper::calibration_sigma() const {
+  Calibration sigma = Calibration::Zero();
+  sigma[calibration::yaw] = nameless_.camera_yaw().sigma_rad;
+  return sigma;
 }
 
 std::optional<Judgement> NamelessMapper::doubt() const {

@@ -68,7 +68,7 @@ void SmootherEstimator::write(const PoseGaussian& belief, double path_m, Estimat
 double SmootherEstimator::doubted_lag_s() const {
   const std::optional<RigBelief> rig = mapper_->rig();
   if (!rig || !rig->is_doubted(calibration::lag)) return 0.0;
-  return std::abs(mapper_->smoother().graph().calibration()[calibration::lag]);
+  return std::abs(mapper_->calibration()[calibration::lag]);
 }
 
 Judgement SmootherEstimator::judged(const Eigen::Matrix3d& covariance, double path_m) const {
@@ -93,7 +93,7 @@ std::optional<SmootherEstimator::Prediction> SmootherEstimator::predict(const Hi
   if (!see(robot, smoother.graph().landmark(landmark.in_graph), 0.0, seen)) return std::nullopt;
   const Eigen::Vector2d by_position = robot.to_map(seen.by_pose.head<2>());
   const Eigen::Vector3d by_pose(by_position.x(), by_position.y(), seen.by_pose.z());
-  return Prediction{.azimuth_rad = wrap(seen.azimuth_rad - smoother.graph().calibration()[calibration::yaw]),
+  return Prediction{.azimuth_rad = wrap(seen.azimuth_rad - mapper_->calibration()[calibration::yaw]),
                     .variance_rad2 = by_pose.dot(belief_.covariance * by_pose) +
                                      by_position.dot(covariances_.of(landmark, smoother) * by_position)};
 }
@@ -118,10 +118,9 @@ RigFinding SmootherEstimator::rig_finding() const {
   if (!rig) return {};
   RigFinding finding{.bearing_noise = rig->bearing_noise, .odometry_noise = rig->odometry_noise};
   if (!rig->doubts_any()) return finding;
-  const Calibration& error = mapper_->smoother().graph().calibration();
-  const auto covariance = mapper_->smoother().calibration_covariance();
+  const Calibration error = mapper_->calibration(), sigma = mapper_->calibration_sigma();
   const auto tell = [&](int which, std::optional<RigFinding::Value>& value) {
-    if (rig->is_doubted(which)) value = {error[which], std::sqrt(covariance(which, which))};
+    if (rig->is_doubted(which)) value = {error[which], sigma[which]};
   };
   tell(calibration::yaw, finding.yaw_offset_rad);
   tell(calibration::scale_turn, finding.scale_turn);

@@ -80,6 +80,15 @@ void Beam::forget(std::span<const PoseId> images, Workers& workers) {
   conclude_image();
 }
 
+void Beam::turn_bearings(double turn_rad, Workers& workers) {
+  workers.for_each(members_.size(), [&](std::size_t i) {
+    members_[i].turn_bearings(turn_rad);
+    energies_[i] = members_[i].energy();
+    newest_covariances_[i] = members_[i].smoother().newest_covariance();
+  });
+  conclude_image();
+}
+
 void Beam::conclude_image() {
   weigh();
   std::vector<PoseBelief> newest;

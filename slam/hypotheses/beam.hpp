@@ -45,6 +45,9 @@ class Beam {
   /// Removes these images, ascending, from all members: see Hypothesis.
   void forget(std::span<const PoseId> images, Workers& workers);
 
+  /// Adds `turn_rad` to all azimuths so far, in all members.
+  void turn_bearings(double turn_rad, Workers& workers);
+
   /// The members, in no particular order.
   const std::vector<Hypothesis>& members() const { return members_; }
   const Hypothesis& best() const { return members_[best_]; }

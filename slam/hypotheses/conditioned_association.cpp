@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "slam/hypotheses/image_reading.hpp"
-#include "slam/hypotheses/joint_association.hpp"
 
 namespace azimuth {
 namespace {
@@ -50,6 +49,153 @@ bool leaves_open(const ImageReading& end, const ImageReading& start) {
   return false;
 }
 
+constexpr std::size_t kReadingsFollowed = 6;
+// Readings and answers whose ln of the odds against the most likely one is larger than this are dropped.
+constexpr double kFollowedWithin = 8.0;
+// Lower bound of the probability of all other readings, since dropped readings have some probability.
+constexpr double kLeastDoubt = 1e-12;
+
+struct WeighedReading {
+  ImageReading reading;
+  double log_weight = 0.0;
+};
+
+/// One continuation of a reading: a bearing and its landmark, or -1.
+struct Answer {
+  std::size_t reading = 0, bearing = 0;
+  int landmark = -1;
+  double score = 0.0, log_at_most = 0.0;  // log_at_most: bound on the resulting reading's log weight
+};
+
+/// The joint association of one image, one bearing per round.
+class JointRounds {
+ public:
+  JointRounds(const ImageReading& start, const ConditionedAssociationSettings& settings)
+      : settings_(settings), nothing_(settings.log_nothing()), readings_{{start}} {}
+
+  std::vector<int> run() {
+    for (std::size_t round = 0; round < bearings(); ++round) {
+      answers_.clear();
+      for (std::size_t r = 0; r < readings_.size(); ++r) ask(r);
+      follow_likeliest();
+    }
+    count_missed();
+    return clear_pairs_of_all();
+  }
+
+ private:
+  std::size_t bearings() const { return readings_.front().reading.bearings(); }
+  std::size_t landmarks() const { return readings_.front().reading.landmarks(); }
+
+  /// Picks the open bearing whose best answer has the largest margin, and lists its possible answers.
+  void ask(std::size_t r) {
+    ImageReading& reading = readings_[r].reading;
+    reading.predict();
+    std::size_t clearest = 0;
+    double widest = ImageReading::kNever, clearest_best = 0.0, log_at_most = readings_[r].log_weight;
+    for (std::size_t i = 0; i < bearings(); ++i) {
+      if (!reading.is_open(i)) continue;
+      const auto [best, margin] = best_answer(reading, i);
+      log_at_most += best;
+      if (margin > widest) {
+        widest = margin;
+        clearest = i;
+        clearest_best = best;
+      }
+    }
+    const double least = clearest_best - kFollowedWithin, log_others = log_at_most - clearest_best;
+    bool is_nothing_likely = nothing_ >= least;
+    for (std::size_t j = 0; j < landmarks(); ++j) {
+      const double score = reading.score(clearest, j);
+      if (score < least) continue;
+      answers_.push_back({r, clearest, static_cast<int>(j), score, log_others + score});
+      is_nothing_likely = is_nothing_likely || best_of_others(reading, clearest, j) > score - kFollowedWithin;
+    }
+    if (is_nothing_likely) answers_.push_back({r, clearest, -1, nothing_, log_others + nothing_});
+  }
+
+  struct Best {
+    double score, margin;  // margin over the bearing's other answers and over other bearings of the same landmark
+  };
+  Best best_answer(const ImageReading& reading, std::size_t bearing) const {
+    double best = nothing_, second = ImageReading::kNever;
+    int landmark = -1;
+    for (std::size_t j = 0; j < landmarks(); ++j) {
+      const double score = reading.score(bearing, j);
+      if (score > best) {
+        second = best;
+        best = score;
+        landmark = static_cast<int>(j);
+      } else {
+        second = std::max(second, score);
+      }
+    }
+    if (landmark >= 0) second = std::max(second, best_of_others(reading, bearing, static_cast<std::size_t>(landmark)));
+    return {best, best - second};
+  }
+
+  double best_of_others(const ImageReading& reading, std::size_t bearing, std::size_t landmark) const {
+    double best = ImageReading::kNever;
+    for (std::size_t i = 0; i < bearings(); ++i)
+      if (i != bearing) best = std::max(best, reading.score(i, landmark));
+    return best;
+  }
+
+  void follow_likeliest() {
+    std::stable_sort(answers_.begin(), answers_.end(),
+                     [](const Answer& a, const Answer& b) { return a.log_at_most > b.log_at_most; });
+    if (answers_.size() > kReadingsFollowed) answers_.resize(kReadingsFollowed);
+    const double least = answers_.front().log_at_most - kFollowedWithin;
+    std::erase_if(answers_, [&](const Answer& answer) { return answer.log_at_most < least; });
+    std::vector<WeighedReading> followed;
+    followed.reserve(answers_.size());
+    for (const Answer& answer : answers_) {
+      WeighedReading& next = followed.emplace_back(readings_[answer.reading]);
+      next.log_weight += answer.score;
+      if (answer.landmark >= 0)
+        next.reading.take(answer.bearing, static_cast<std::size_t>(answer.landmark));
+      else
+        next.reading.leave(answer.bearing);
+    }
+    readings_ = std::move(followed);
+  }
+
+  void count_missed() {
+    const double log_miss = std::log1p(-settings_.scene.detection_probability);
+    for (WeighedReading& weighed : readings_) {
+      weighed.reading.predict();
+      weighed.log_weight += log_miss * weighed.reading.missed();
+    }
+  }
+
+  /// The pairs that are clear in the weighted sum of all readings.
+  std::vector<int> clear_pairs_of_all() const {
+    double most = ImageReading::kNever, sum = 0.0;
+    for (const WeighedReading& weighed : readings_) most = std::max(most, weighed.log_weight);
+    std::vector<double> weight_of_pair(bearings() * landmarks(), 0.0);
+    for (const WeighedReading& weighed : readings_) {
+      const double weight = std::exp(weighed.log_weight - most);
+      sum += weight;
+      const std::vector<int> landmark_of = weighed.reading.landmark_of();
+      for (std::size_t i = 0; i < bearings(); ++i)
+        if (landmark_of[i] >= 0) weight_of_pair[i * landmarks() + static_cast<std::size_t>(landmark_of[i])] += weight;
+    }
+    std::vector<int> clear(bearings(), -1);
+    for (std::size_t i = 0; i < bearings(); ++i)
+      for (std::size_t j = 0; j < landmarks(); ++j) {
+        const double p = weight_of_pair[i * landmarks() + j] / sum;
+        if (p > 0.5 && std::log(p / std::max(1.0 - p, kLeastDoubt)) >= settings_.margin_of(j))
+          clear[i] = static_cast<int>(j);
+      }
+    return clear;
+  }
+
+  const ConditionedAssociationSettings& settings_;
+  const double nothing_;
+  std::vector<WeighedReading> readings_;
+  std::vector<Answer> answers_;
+};
+
 }  // namespace
 
 std::vector<int> associate_conditioned(PoseAndLandmarks belief, std::span<const NamelessSighting> sightings,
@@ -65,6 +211,10 @@ std::vector<int> associate_conditioned(PoseAndLandmarks belief, std::span<const 
   }
   return settings.reads_whole && leaves_open(reading, start) ? associate_jointly(start, settings)
                                                              : reading.landmark_of();
+}
+
+std::vector<int> associate_jointly(const ImageReading& start, const ConditionedAssociationSettings& settings) {
+  return JointRounds(start, settings).run();
 }
 
 }  // namespace azimuth

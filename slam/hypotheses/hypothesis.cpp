@@ -156,6 +156,11 @@ void Hypothesis::assign(BearingId bearing, LandmarkId landmark) {
   smoother_.optimise();
 }
 
+void Hypothesis::turn_bearings(double turn_rad) {
+  smoother_.turn_bearings(turn_rad);
+  smoother_.optimise();
+}
+
 void Hypothesis::forget(std::span<const PoseId> images) {
   const SharedPages<double> before_s = std::exchange(time_s_, {});
   const SharedPages<Kind> kinds_before = std::exchange(kinds_, {});

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "slam/geometry/angle.hpp"
 #include "slam/geometry/index.hpp"
+#include "slam/geometry/wrong_rig.hpp"
 
 namespace azimuth {
 namespace {
@@ -20,6 +22,10 @@ constexpr std::size_t kBearingsKept = 16;
 // Factor on the covariance. Members treat their associations as certain, so even when the associations are right,
 // squared errors are 2 to 3 times as large as their covariances say. The same holds for drawn maps (VI.31).
 constexpr double kOverconfident = 3.0;
+// As for landmarks with names: see RigBelief and NamedMapper.
+constexpr PoseId kJudgementsInGraph = 10;
+constexpr double kLogOddsToStay = 0.0, kPossible_sigmas = 3.0;
+constexpr double kNoPrior_rad = 1e3;
 
 /// Unites bearings that are too close to tell apart into their mean.
 void unite_near(std::vector<NamelessSighting>& sightings) {
@@ -97,8 +103,8 @@ bool Nameless::update(const BearingSet& set, Workers& workers) {
   sightings_.clear();
   const double sigma_rad = settings_.beam.hypothesis.scene.sigma_bearing_rad;
   for (const Bearing& bearing : set.bearings)
-    sightings_.push_back(
-        {bearing.azimuth_rad, std::isnan(bearing.sigma_rad) ? sigma_rad : bearing.sigma_rad, bearing.kind});
+    sightings_.push_back({camera_yaw_.doubted ? wrap(bearing.azimuth_rad + camera_yaw_.error_rad) : bearing.azimuth_rad,
+                          std::isnan(bearing.sigma_rad) ? sigma_rad : bearing.sigma_rad, bearing.kind});
   if (settings_.beam.hypothesis.tracks.used) unite_near(sightings_);
   if (has_begun()) {
     const double after_s = last_used_ ? to_seconds(set.stamp - *last_used_) : 0.0;
@@ -112,10 +118,35 @@ bool Nameless::update(const BearingSet& set, Workers& workers) {
   for (std::size_t i = 0; i < sightings_.size(); ++i) bearing_numbers_.push_back(bearings_so_far_++);
   last_used_ = set.stamp;
   motion_.pose_added();
+  judge_yaw(workers);
   evidence_ = trust_evidence(beam_, odometry_alone());
   recent_doubts_.add(evidence_);
   other_answers_.push_back(is_drawn() ? pose_by_drawn_maps() : odometry_alone());
   return true;
+}
+
+/// Judges the camera's yaw from the best member's whole graph, again whenever the graph has grown by a tenth.
+void Nameless::judge_yaw(Workers& workers) {
+  const double narrow_rad = settings_.sigma_yaw_rad, wide_rad = settings_.sigma_yaw_if_wrong_rad;
+  if (drawn_ || !(narrow_rad > 0.0 && wide_rad > narrow_rad)) return;
+  if (kJudgementsInGraph * ++images_since_judged_ < beam_.images()) return;
+  images_since_judged_ = 0;
+  const Smoother::Told told = beam_.best().smoother().camera_yaw_rad();
+  const double information = told.information;
+  if (!(information > 0.0)) return;
+  const double error_rad = camera_yaw_.error_rad + told.value;  // without a prior
+  const double log_odds = log_evidence(error_rad, 1.0 / information, kNoPrior_rad, wide_rad, narrow_rad);
+  CameraYaw next;
+  next.doubted = log_odds > (camera_yaw_.doubted ? kLogOddsToStay : kLogOddsToDoubt) &&
+                 std::abs(error_rad) < kPossible_sigmas * wide_rad;
+  if (next.doubted) {
+    const double variance_rad2 = 1.0 / (information + 1.0 / (wide_rad * wide_rad));
+    next.error_rad = variance_rad2 * information * error_rad;
+    next.sigma_rad = std::sqrt(variance_rad2);
+  }
+  const double turn_rad = next.error_rad - camera_yaw_.error_rad;
+  camera_yaw_ = next;
+  if (turn_rad != 0.0) beam_.turn_bearings(turn_rad, workers);
 }
 
 void Nameless::forget(Workers& workers) {

@@ -5,7 +5,6 @@
 #include "slam/perception/colour/colour_perception.hpp"
 #include "slam/perception/lamps/lamp_perception.hpp"
 #include "slam/perception/sift/sift_perception.hpp"
-#include "slam/perception/watched_perception.hpp"
 
 namespace azimuth {
 

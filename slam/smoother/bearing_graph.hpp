@@ -144,6 +144,14 @@ class BearingGraph : public NormalEquations {
   /// (Hutchinson's trace estimate).
   Eigen::VectorXd signed_sum_of_bearings(std::uint64_t seed) const;
   Eigen::VectorXd signed_sum_of_odometry(std::uint64_t seed, int stride) const;
+  /// Derivatives of the energy by the camera's yaw, which need not be an unknown, as of the last evaluate().
+  struct ByYaw {
+    double slope = 0.0, curvature = 0.0;
+    Eigen::VectorXd mixed;  ///< d2 energy / (d yaw d unknowns)
+  };
+  ByYaw by_yaw() const;
+  /// Adds `turn_rad` to all azimuths so far.
+  void turn_bearings(double turn_rad);
   /// Sets the robust kernel; it takes effect with the next evaluate().
   void set_kernel(RobustKernel kernel, double width);
   const Eigen::VectorXd& gradient() const { return gradient_; }

@@ -70,6 +70,27 @@ Eigen::VectorXd BearingGraph::signed_sum_of_bearings(std::uint64_t seed) const {
   return sum;
 }
 
+BearingGraph::ByYaw BearingGraph::by_yaw() const {
+  ByYaw by{.mixed = Eigen::VectorXd::Zero(rows_)};
+  for (BearingId id = 0; id < bearings_.size(); ++id) {
+    if (landmark_of(id) == kOfNothing) continue;
+    const Link& link = links_[id];
+    const double weight_per_sigma = link.weight / bearings_[id].sigma_rad;
+    by.slope -= weight_per_sigma * link.residual;
+    by.curvature += weight_per_sigma / bearings_[id].sigma_rad;
+    add_pull(link, bearings_[id], -weight_per_sigma, by.mixed);
+  }
+  return by;
+}
+
+void BearingGraph::turn_bearings(double turn_rad) {
+  for (BearingId id = 0; id < bearings_.size(); ++id) {
+    BearingMeasurement& measured = bearings_.edit(id);
+    measured.azimuth_rad = wrap(measured.azimuth_rad + turn_rad);
+    links_.edit(id).changed = true;
+  }
+}
+
 Eigen::VectorXd BearingGraph::signed_sum_of_odometry(std::uint64_t seed, int stride) const {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(rows_);
   for (PoseId id = 0; id + stride < poses_.size(); id += stride) {

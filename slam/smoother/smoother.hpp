@@ -97,6 +97,15 @@ class Smoother {
   Noise bearing_noise() const;
   /// The ratio of actual to stated noise of odometry composed over `stride` poses at a time.
   Noise odometry_noise(int stride) const;
+  /// What bearings and odometry tell about a value, without a prior.
+  struct Told {
+    double value = 0.0;
+    double information = 0.0;  ///< inverse variance; 0: nothing is told
+  };
+  /// The error of the camera's yaw, which need not be an unknown, to first order and as of the last optimise().
+  Told camera_yaw_rad() const;
+  /// Adds `turn_rad` to all azimuths so far. The caller must call optimise() afterwards.
+  void turn_bearings(double turn_rad) { graph_.turn_bearings(turn_rad); }
   /// Multiplies the standard deviations of all bearings and of all odometry so far. The caller must call optimise()
   /// afterwards.
   void scale_noise(double bearings, double odometry);

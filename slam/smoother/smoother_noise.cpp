@@ -11,6 +11,7 @@ namespace {
 constexpr int kProbes = 4;
 constexpr double kFewestTold = 8.0;  // least redundancy for an estimate
 constexpr double kLeast = 0.1, kMost = 10.0;
+constexpr double kLeastShareTold = 1e-9;  // of the curvature; less is rounding
 
 /// Expected weighted squared residual of standard Gaussian noise within the scatter bound. It is below one, since the
 /// kernel also reduces the weight of a Gaussian's tails.
@@ -56,6 +57,15 @@ Smoother::Noise Smoother::odometry_noise(int stride) const {
   const double taken =
       taken_up([this, stride](std::uint64_t seed) { return graph_.signed_sum_of_odometry(seed, stride); });
   return noise_by(misfit.chi2, misfit.residuals - taken);
+}
+
+/// The unknowns follow the yaw; what they take up of its curvature tells nothing (Schur complement).
+Smoother::Told Smoother::camera_yaw_rad() const {
+  BearingGraph::ByYaw by = graph_.by_yaw();
+  factor_.forwards(by.mixed);
+  const double information = by.curvature - by.mixed.squaredNorm();
+  if (!(information > kLeastShareTold * by.curvature)) return {};
+  return {.value = -by.slope / information, .information = information};
 }
 
 void Smoother::scale_noise(double bearings, double odometry) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "slam/fastslam/fastslam.hpp"
-#include "slam/fastslam/slot_set.hpp"
+#include "slam/fastslam/particles.hpp"
 #include "slam/geometry/random.hpp"
 #include "slam/particles/lamp_association.hpp"
 

@@ -1,7 +1,7 @@
 // Coloured landmarks (mathematics I.11).
 
 #include "slam/perception/colour/blobs.hpp"
-#include "slam/perception/colour/radial_line.hpp"
+#include "slam/perception/colour/outline.hpp"
 #include "tests/golden/checks.hpp"
 
 namespace azimuth::golden {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <set>
 
-#include "slam/hindsight/usual_odds.hpp"
+#include "slam/hindsight/smoother_estimator.hpp"
 #include "tests/hypotheses/nameless_world.hpp"
 
 namespace azimuth {

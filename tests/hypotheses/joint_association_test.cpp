@@ -1,5 +1,3 @@
-#include "slam/hypotheses/joint_association.hpp"
-
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <gmock/gmock.h>
@@ -7,6 +5,8 @@
 #include <numbers>
 #include <random>
 
+#include "slam/hypotheses/conditioned_association.hpp"
+#include "slam/hypotheses/image_reading.hpp"
 #include "tests/hypotheses/known_but_for_heading.hpp"
 
 namespace azimuth {

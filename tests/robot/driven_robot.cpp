@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <gtest/gtest.h>
 
-#include "sim/pioneer/fault.hpp"
+#include "sim/pioneer/fault_schedule.hpp"
 #include "tests/support/allocation_counter.hpp"
 
 namespace azimuth::test {

@@ -1,13 +1,12 @@
 // Every fault of the simulator, on a robot that drives round the lab: the driver must recover, and its odometry must
 // agree with the wheels.
 
-#include "sim/pioneer/fault.hpp"
-
 #include <gtest/gtest.h>
 #include <set>
 #include <sstream>
 
 #include "sim/azimuth_sim/rover.hpp"
+#include "sim/pioneer/fault_schedule.hpp"
 #include "tests/robot/agreement.hpp"
 #include "tests/support/printed_name.hpp"
 

@@ -5,7 +5,7 @@
 #include <deque>
 #include <vector>
 
-#include "drivers/pioneer/link.hpp"
+#include "drivers/pioneer/device_link.hpp"
 #include "sim/pioneer/simulated_pioneer.hpp"
 #include "sim/world/random.hpp"
 

@@ -9,6 +9,7 @@
 #include "settings/configured_estimator.hpp"
 #include "settings/sample_sentence.hpp"
 #include "tests/scenarios/replayed.hpp"
+#include "tests/support/data.hpp"
 #include "tests/support/encoder_robot.hpp"
 #include "tools/replay/replay_record.hpp"
 
@@ -24,12 +25,15 @@ struct Judged {
   SampleFinding finding;
 };
 
+Judged judged(const Run& run, const Rig& rig) {
+  const ReplayResult result = replay(run, rig, configured_estimator(rig, {}), StageSettings{});
+  return {evaluate(replay_record(run, rig, "smoother", 0, result)), result.samples};
+}
+
 Judged judged(EncoderRobot robot, std::uint64_t seed) {
   robot.seed = seed;
   const Run run = driven(robot);
-  const Rig rig = rig_of(run);
-  const ReplayResult result = replay(run, rig, configured_estimator(rig, {}), StageSettings{});
-  return {evaluate(replay_record(run, rig, "smoother", 0, result)), result.samples};
+  return judged(run, rig_of(run));
 }
 
 struct Together {
@@ -95,6 +99,35 @@ TEST(WrongRigs, ACameraAskewIsFoundOut) {
     const Together all = of_twenty({.camera_yaw_rad = yaw_rad}, fmt::format("a camera askew by {} rad", yaw_rad));
     EXPECT_LE(all.anees, 6.0) << yaw_rad;
     EXPECT_GE(all.doubted, kSeeds - 1) << yaw_rad;
+  }
+}
+
+TEST(WrongRigs, ACameraAskewIsFoundOutWithoutNames) {
+  const Together as_it_is = of_twenty({.names = false}, "as the rig says, without names");
+  EXPECT_LE(as_it_is.doubted, 1);
+  EXPECT_LE(as_it_is.anees, 5.0);
+  for (const double yaw_rad : {0.05, 0.08, -0.12}) {
+    const Together all = of_twenty({.camera_yaw_rad = yaw_rad, .names = false},
+                                   fmt::format("a camera askew by {} rad, without names", yaw_rad));
+    EXPECT_LE(all.anees, 6.0) << yaw_rad;
+    EXPECT_GE(all.doubted, kSeeds - 1) << yaw_rad;
+  }
+}
+
+// A real laser that was mounted 4.6 degrees askew.
+TEST(LostInTheWoods, IsTrackedWithNamesAndWithout) {
+  AZIMUTH_REQUIRE_DATA("lostwoods-c");
+  const auto run = load_run(test::data_folder() / "lostwoods-c");
+  ASSERT_TRUE(run) << text(run.error());
+  for (const bool names : {true, false}) {
+    Rig rig = rig_of(*run);
+    rig.camera.identities = names;
+    const auto [report, finding] = judged(*run, rig);
+    fmt::print("lostwoods-c, {}: rmse {:.3f} m, ANEES while tracking {:.2f}\n", names ? "names" : "no names",
+               report.position_m.rmse, report.tracking_consistency.anees);
+    EXPECT_LE(report.position_m.rmse, 0.06);
+    EXPECT_LE(report.tracking_consistency.anees, 6.0);
+    EXPECT_TRUE(finding.rig.yaw_offset_rad.has_value());
   }
 }
 

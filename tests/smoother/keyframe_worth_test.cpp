@@ -1,12 +1,11 @@
 // Selection of the keyframes with the least information.
 
-#include "slam/smoother/keyframe_worth.hpp"
-
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <numeric>
 #include <vector>
 
+#include "slam/smoother/keyframe_limit.hpp"
 #include "slam/smoother/known_names.hpp"
 #include "tests/support/named_drive.hpp"
 

@@ -167,6 +167,45 @@ TEST(Rig, IsGivenUpOnWhereNoRigLikeItFits) {
   EXPECT_EQ(judged(smoother, given_up, rig_belief(kSaid), kDoubts).sigma, given_up.sigma);  // and the decision persists
 }
 
+// The yaw of a graph without that unknown, after bearings were turned by what is told, is that of a graph with it.
+TEST(CameraYaw, IsToldWithoutBeingAnUnknown) {
+  constexpr double kPrior_rad = 0.1;
+  const NamedDrive drive = named_drive({.seed = 5, .images = 150, .camera_yaw_rad = 0.06});
+  const auto driven = [&](const CalibrationPriors& calibration) {
+    SmootherSettings settings;
+    settings.calibration = calibration;
+    Smoother smoother(settings);
+    for (DriveFeeder feeder(drive); !feeder.done();) {
+      feeder.feed(smoother);
+      smoother.optimise();
+    }
+    smoother.optimise(50);
+    return smoother;
+  };
+  const Smoother estimated = driven({.sigma_camera_yaw_rad = kPrior_rad});
+  const double variance_rad2 = estimated.calibration_covariance()(calibration::yaw, calibration::yaw);
+
+  Smoother turned = driven({});
+  double yaw_rad = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    const double turn_rad = turned.camera_yaw_rad().value;
+    turned.turn_bearings(turn_rad);
+    turned.optimise(50);
+    yaw_rad += turn_rad;
+  }
+  const double information = turned.camera_yaw_rad().information;
+  const double prior = 1.0 / (kPrior_rad * kPrior_rad);
+  EXPECT_NEAR((information + prior) * variance_rad2, 1.0, 0.03);
+  EXPECT_NEAR(yaw_rad * information / (information + prior), estimated.graph().calibration()[calibration::yaw],
+              0.1 * std::sqrt(variance_rad2));
+  EXPECT_NEAR(yaw_rad, 0.06, 4.0 * std::sqrt(variance_rad2));
+}
+
+TEST(CameraYaw, IsNotToldByADriveWithoutBearings) {
+  const Smoother smoother(SmootherSettings{});
+  EXPECT_EQ(smoother.camera_yaw_rad().information, 0.0);
+}
+
 // A value that the rig declares exact is not an unknown.
 TEST(Rig, IsNeverDoubtedWhereItIsExact) {
   Smoother smoother(SmootherSettings{});

@@ -1,7 +1,10 @@
 #include "slam/perception/colour/outline.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+
+#include "slam/geometry/angle.hpp"
 
 namespace azimuth {
 namespace {
@@ -48,6 +51,20 @@ void outline_of(Runs runs, const SampleGrid& grid, std::vector<CentredPoint>& ou
     above = here;
     rest = rest.subspan(here.size());
   }
+}
+
+double radial_line_rad(std::span<const CentredPoint> points) {
+  CentredPoint sum = CentredPoint::Zero();
+  double S_xx = 0.0, S_xy = 0.0, S_yy = 0.0;
+  for (const CentredPoint& point : points) {
+    sum += point;
+    S_xx += point.x() * point.x();
+    S_xy += point.x() * point.y();
+    S_yy += point.y() * point.y();
+  }
+  const double angle = 0.5 * std::atan2(2.0 * S_xy, S_xx - S_yy);
+  const bool towards_centroid = std::cos(angle) * sum.x() + std::sin(angle) * sum.y() >= 0.0;
+  return wrap(towards_centroid ? angle : angle + kPi);
 }
 
 }  // namespace azimuth

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
@@ -13,6 +14,40 @@
 
 namespace azimuth {
 namespace {
+
+bool visible(const ImageMask& mask, int u, int v) {
+  return mask.visible({u, v}) && mask.visible({u + SampleLattice::kSampleWidth_px - 1, v});
+}
+
+/// Distance between samples that gives about kMostSamples if the whole image is visible.
+int spacing_px(int width_px, int height_px) {
+  const double area_px = static_cast<double>(width_px) * height_px;
+  return std::max(SampleLattice::kSampleWidth_px,
+                  static_cast<int>(std::ceil(std::sqrt(area_px / SampleLattice::kMostSamples))));
+}
+
+constexpr std::size_t kNone = ~std::size_t{0};
+
+constexpr int kFewestRows = 3;             // Of either part
+constexpr double kShareThatSpeaks = 0.75;  // Share of all rows that must have noise; a camera image has more.
+
+/// Whether the rows of two images are equal up to some row and different after it, or the reverse. Rows without noise
+/// are not added.
+class Parts {
+ public:
+  void add(bool same) {
+    if (rows_ == 0 || same != same_) ++changes_;
+    same_ = same;
+    ++rows_;
+    ++(same ? same_rows_ : other_rows_);
+  }
+  int rows() const { return rows_; }
+  bool two() const { return changes_ == 2 && same_rows_ >= kFewestRows && other_rows_ >= kFewestRows; }
+
+ private:
+  bool same_ = false;
+  int changes_ = 0, rows_ = 0, same_rows_ = 0, other_rows_ = 0;
+};
 
 constexpr int kSampleWidth = SampleLattice::kSampleWidth_px;
 
@@ -34,6 +69,53 @@ std::uint64_t digest_of(const std::uint8_t* bytes, std::size_t count) {
 }
 
 }  // namespace
+
+RowHistory::RowHistory(std::size_t rows) {
+  for (Rows& image : images_) image.resize(rows);
+}
+
+bool RowHistory::add() {
+  bool torn = false;
+  for (std::size_t before = 1; before + 1 <= held_; ++before) torn = torn || has_rows_of(before);
+  held_ = std::min(held_ + 1, kImages - 1);
+  newest_ = (newest_ + 1) % kImages;
+  return torn;
+}
+
+bool RowHistory::has_rows_of(std::size_t before) const {
+  const Rows &now = image(0), &old = image(before);
+  Parts parts;
+  for (std::size_t i = 0; i < now.size(); ++i)
+    if (now[i] != kNothing && is_of_one_instant(before, i)) parts.add(now[i] == old[i]);
+  return parts.two() && parts.rows() >= kShareThatSpeaks * static_cast<double>(now.size());
+}
+
+bool RowHistory::is_of_one_instant(std::size_t before, std::size_t row) const {
+  for (std::size_t other = 1; other <= held_; ++other)
+    if (other != before && image(other)[row] == image(before)[row]) return false;
+  return true;
+}
+
+SampleLattice::SampleLattice(const ImageMask& mask, int width_px, int height_px) {
+  const int spacing = spacing_px(width_px, height_px);
+  std::vector<std::size_t> above(as_size(width_px / spacing + 1), kNone);
+  for (int v = 0; v < height_px; v += spacing) {
+    Row row{.v = v, .first_u = width_px, .end_u = 0, .begin = samples_.size(), .end = 0};
+    std::size_t left = kNone;
+    for (int u = 0; u + kSampleWidth_px <= width_px; u += spacing) {
+      std::size_t& here = above[as_size(u / spacing)];
+      const std::size_t index = visible(mask, u, v) ? samples_.size() : kNone;
+      if (index != kNone) {
+        samples_.push_back({u, left == kNone ? index : left, here == kNone ? index : here});
+        row.first_u = std::min(row.first_u, u);
+        row.end_u = u + kSampleWidth_px;
+      }
+      left = here = index;
+    }
+    row.end = samples_.size();
+    if (row.end > row.begin) rows_.push_back(row);
+  }
+}
 
 ImageTrouble ImageWatch::judge(const ImageView& image) {
   if (!image.readable() || !is_size_of(image.format, rig_)) return ImageTrouble::unreadable;

@@ -1,16 +1,83 @@
 #pragma once
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "slam/camera/camera_rig.hpp"
-#include "slam/perception/image/row_history.hpp"
+#include "slam/camera/image_mask.hpp"
 #include "slam/perception/image/row_seams.hpp"
-#include "slam/perception/image/sample_lattice.hpp"
 #include "slam/sample/bearings.hpp"
 #include "slam/sample/image.hpp"
 
 namespace azimuth {
+
+/// Recognises rows that belong to an earlier image: a camera's buffer still holds them if only a part of it was
+/// rewritten.
+///
+/// Sensor noise makes every row differ from the same row of other images. An image is torn if its rows below some row
+/// (or above it) equal those of an earlier image to the last bit while all other rows differ. Rows without noise are
+/// ignored, as are rows that several earlier images share: both are synthetic. Most rows must carry noise for a
+/// verdict.
+///
+/// Thread contract: thread-bound. Nothing allocates after construction.
+class RowHistory {
+ public:
+  /// Digest of a row's pixels; kNothing for a row without noise.
+  using Digest = std::uint64_t;
+  static constexpr Digest kNothing = 0;
+
+  RowHistory() = default;
+  explicit RowHistory(std::size_t rows);
+
+  std::vector<Digest>& newest() { return images_[newest_]; }  ///< To be filled from top to bottom
+
+  /// Adds the newest image to the history. Returns whether it has rows of an earlier image.
+  bool add();
+
+ private:
+  static constexpr std::size_t kImages = 8;  // Cameras typically have about four buffers
+  using Rows = std::vector<Digest>;
+
+  bool has_rows_of(std::size_t before) const;
+  bool is_of_one_instant(std::size_t before, std::size_t row) const;
+  const Rows& image(std::size_t before) const { return images_[(newest_ + kImages - before) % kImages]; }
+
+  std::array<Rows, kImages> images_;
+  std::size_t newest_ = 0, held_ = 0;
+};
+
+/// Evenly spread samples of the visible part of an image, each a few adjacent pixels in one row. They suffice to judge
+/// an image as a whole.
+///
+/// Thread contract: reentrant.
+class SampleLattice {
+ public:
+  static constexpr int kSampleWidth_px = 4;   ///< Averaging halves the standard deviation of the sensor's noise
+  static constexpr int kMostSamples = 16384;  ///< Approximate
+
+  struct Sample {
+    int u = 0;              ///< The sample's first pixel
+    std::size_t left = 0;   ///< Index of the sample to the left; its own index if there is none.
+    std::size_t above = 0;  ///< Index of the sample above; its own index if there is none.
+  };
+  struct Row {
+    int v = 0;
+    int first_u = 0, end_u = 0;      ///< The pixel columns that hold all samples of the row
+    std::size_t begin = 0, end = 0;  ///< Indices of the row's samples
+  };
+
+  SampleLattice() = default;
+  SampleLattice(const ImageMask& mask, int width_px, int height_px);
+
+  const std::vector<Row>& rows() const { return rows_; }
+  const std::vector<Sample>& samples() const { return samples_; }
+
+ private:
+  std::vector<Row> rows_;
+  std::vector<Sample> samples_;
+};
 
 /// Limits outside which an image is unusable. Brightness is in 8-bit steps, 0 to 255; shares are of the visible
 /// samples. The limits are absolute on purpose: a dim image is usable as long as something can be seen in it.

@@ -1,20 +1,118 @@
 #include "slam/perception/sift/sift_perception.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <numbers>
+#include <opencv2/features2d.hpp>
+#include <span>
 #include <string>
 
 #include "slam/camera/make_camera.hpp"
+#include "slam/geometry/index.hpp"
 #include "slam/geometry/same_everywhere.hpp"
-#include "slam/perception/sift/neighbours.hpp"
-#include "slam/perception/sift/opencv_sift.hpp"
 #include "slam/perception/sift/own_sift.hpp"
 
 namespace azimuth {
 namespace {
 
+Neighbours nearest_to(std::size_t place, std::span<const KeyPoint> key_points) {
+  Neighbours nearest;
+  std::array<float, Neighbours::kMost> distance_px;
+  distance_px.fill(std::numeric_limits<float>::infinity());
+  for (std::size_t other = 0; other < key_points.size(); ++other) {
+    if (other == place) continue;
+    const float away_px = std::abs(key_points[other].x_px - key_points[place].x_px) +
+                          std::abs(key_points[other].y_px - key_points[place].y_px);
+    if (!(away_px < distance_px.back())) continue;
+    std::size_t rank = Neighbours::kMost - 1;
+    for (; rank > 0 && away_px < distance_px[rank - 1]; --rank) {
+      distance_px[rank] = distance_px[rank - 1];
+      nearest.index[rank] = nearest.index[rank - 1];
+    }
+    distance_px[rank] = away_px;
+    nearest.index[rank] = static_cast<std::uint16_t>(other);
+  }
+  return nearest;
+}
+
+float between_rad(float a_rad, float b_rad) {
+  const float apart_rad = std::abs(a_rad - b_rad);
+  return std::min(apart_rad, 2.0F * std::numbers::pi_v<float> - apart_rad);
+}
+
+/// Uses doubles: the last bits of atan2 for floats differ between arm64 and x86.
+float angle_rad(float x, float y) {
+  return static_cast<float>(std::atan2(static_cast<double>(y), static_cast<double>(x)));
+}
+
+constexpr float kDegree = 3.14159265F / 180.0F;
+
+KeyPoint ours(const cv::KeyPoint& theirs) {
+  return {.x_px = theirs.pt.x,
+          .y_px = theirs.pt.y,
+          .sigma_px = 0.5F * theirs.size,
+          .response = theirs.response,
+          .angle_rad = theirs.angle * kDegree,
+          .octave = theirs.octave};  // Packed in OpenCV's own format
+}
+
+cv::KeyPoint theirs(const KeyPoint& ours) {
+  return {ours.x_px, ours.y_px, 2.0F * ours.sigma_px, ours.angle_rad / kDegree, ours.response, ours.octave};
+}
+
+/// OpenCV's unmodified SIFT: it doubles the image first and takes frames from the dominant gradients. Settings that
+/// exist in OpenCV are passed on. Allocates for every image, and OpenCV may use threads of its own.
+class OpenCvSift final : public FeatureFinder {
+ public:
+  // OpenCV divides the contrast by the number of scales.
+  explicit OpenCvSift(const SiftSettings& settings)
+      : sift_(cv::SIFT::create(0, settings.scales_per_octave, settings.contrast * settings.scales_per_octave,
+                               settings.curvature_ratio, settings.first_sigma_px)),
+        clearance_sigmas_(static_cast<float>(settings.clearance_sigmas)) {}
+
+  void detect(const Plane<std::uint16_t>& image, const VisibleRegion& region, std::vector<KeyPoint>& out) override {
+    copy(image);
+    sift_->detect(image_, found_);
+    out.clear();
+    for (const cv::KeyPoint& found : found_) {
+      const KeyPoint point = ours(found);
+      const float clearance_px = region.clearance_px(point.x_px, point.y_px);
+      if (clearance_px >= std::max(1.0F, clearance_sigmas_ * point.sigma_px)) out.push_back(point);
+    }
+  }
+
+  void describe(std::vector<KeyPoint>& key_points, std::vector<Descriptor>& out) override {
+    found_.clear();
+    for (const KeyPoint& point : key_points) found_.push_back(theirs(point));
+    if (!found_.empty()) sift_->compute(image_, found_, described_);
+    key_points.clear();
+    out.clear();
+    for (std::size_t i = 0; i < found_.size(); ++i) {
+      key_points.push_back(ours(found_[i]));
+      const float* const values = described_.ptr<float>(static_cast<int>(i));
+      std::ranges::transform(std::span(values, 128), out.emplace_back().values.begin(),
+                             [](float value) { return static_cast<std::uint8_t>(value); });
+    }
+  }
+
+ private:
+  void copy(const Plane<std::uint16_t>& image) {
+    image_.create(image.height(), image.width(), CV_8UC1);
+    for (int y = 0; y < image.height(); ++y)
+      for (int x = 0; x < image.width(); ++x)
+        image_.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>((image.at(x, y) + 128) >> 8);
+  }
+
+  cv::Ptr<cv::SIFT> sift_;
+  float clearance_sigmas_;
+  cv::Mat image_, described_;
+  std::vector<cv::KeyPoint> found_;
+};
+
 std::unique_ptr<FeatureFinder> make_finder(const SiftSettings& settings) {
-  if (settings.detector == SiftDetector::opencv) return opencv_sift(settings);
+  if (settings.detector == SiftDetector::opencv) return std::make_unique<OpenCvSift>(settings);
   return std::make_unique<OwnSift>(settings);
 }
 
@@ -31,6 +129,54 @@ double disc_radius_px(const CameraRig& rig, const ImageAxes& axes, int width_px,
 }
 
 }  // namespace
+
+FeatureSelection::FeatureSelection(const SiftSettings& settings, double centre_px)
+    : target_count_(as_size(std::max(0, settings.target_count))),
+      share_(std::max<std::size_t>(1, target_count_ / as_size(std::max(1, settings.sectors)))),
+      half_sector_rad_(std::numbers::pi_v<float> / static_cast<float>(std::max(1, settings.sectors))),
+      centre_px_(static_cast<float>(centre_px)) {}
+
+void FeatureSelection::order(const std::vector<KeyPoint>& key_points) {
+  candidates_.clear();
+  for (const KeyPoint& point : key_points)
+    candidates_.push_back({point, angle_rad(point.x_px - centre_px_, point.y_px - centre_px_)});
+  std::ranges::sort(candidates_, stronger, &Candidate::point);
+}
+
+bool FeatureSelection::has_room(const Candidate& candidate) const {
+  std::size_t chosen_near = 0;
+  for (const Candidate& other : chosen_) {
+    if (between_rad(candidate.azimuth_rad, other.azimuth_rad) <= half_sector_rad_) ++chosen_near;
+    if (chosen_near == share_) return false;
+  }
+  return true;
+}
+
+void FeatureSelection::select(std::vector<KeyPoint>& key_points) {
+  order(key_points);
+  chosen_.clear();
+  left_over_.clear();
+  for (const Candidate& candidate : candidates_) {
+    if (target_count_ == 0 || has_room(candidate)) {
+      chosen_.push_back(candidate);
+    } else {
+      left_over_.push_back(candidate);
+    }
+    if (chosen_.size() == target_count_ && target_count_ > 0) break;
+  }
+  for (const Candidate& candidate : left_over_) {
+    if (chosen_.size() == target_count_) break;
+    chosen_.push_back(candidate);
+  }
+  std::ranges::sort(chosen_, stronger, &Candidate::point);
+  key_points.clear();
+  for (const Candidate& candidate : chosen_) key_points.push_back(candidate.point);
+}
+
+void find_neighbours(std::span<const KeyPoint> key_points, std::vector<Neighbours>& out) {
+  out.clear();
+  for (std::size_t i = 0; i < key_points.size(); ++i) out.push_back(nearest_to(i, key_points));
+}
 
 SiftPerception::SiftPerception(const CameraRig& rig, const SiftSettings& settings)
     : rig_(rig), settings_(settings), camera_(model_of(rig)), finder_(make_finder(settings)) {}

@@ -1,6 +1,8 @@
 #pragma once
 #include <memory>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "slam/camera/camera_model.hpp"
 #include "slam/camera/camera_rig.hpp"
@@ -8,10 +10,49 @@
 #include "slam/perception/image/working_image.hpp"
 #include "slam/perception/perception.hpp"
 #include "slam/perception/sift/feature_finder.hpp"
-#include "slam/perception/sift/selection.hpp"
+#include "slam/perception/sift/key_point.hpp"
 #include "slam/perception/sift/sift_settings.hpp"
+#include "slam/sample/bearings.hpp"
 
 namespace azimuth {
+
+/// Selects the features of an image. Strong key points are preferred, since they are found again. They must come from
+/// all around the robot, since bearings from one side constrain its position poorly.
+///
+/// From the strongest to the weakest, a key point is chosen unless the sector of azimuths centred on it already holds
+/// its share of the target count. Remaining places go to the strongest of the other key points. Sectors are centred on
+/// each key point and not fixed in the image, so the choice does not depend on the robot's heading, nor on the order of
+/// the key points.
+///
+/// Thread contract: thread-bound. Nothing allocates in the steady state.
+class FeatureSelection {
+ public:
+  /// `centre_px`: coordinate of the optical axis in the working image, the same along x and y.
+  FeatureSelection(const SiftSettings& settings, double centre_px);
+
+  /// Keeps at most target_count key points, strongest first.
+  void select(std::vector<KeyPoint>& key_points);
+
+ private:
+  struct Candidate {
+    KeyPoint point;
+    float azimuth_rad = 0.0F;  ///< In the image
+  };
+
+  void order(const std::vector<KeyPoint>& key_points);
+  bool has_room(const Candidate& candidate) const;
+
+  std::size_t target_count_, share_;
+  float half_sector_rad_, centre_px_;
+  std::vector<Candidate> candidates_, chosen_, left_over_;
+};
+
+/// Finds for each key point the Neighbours::kMost nearest others by Manhattan distance in the image, nearest first
+/// (mathematics I.14). Of equally near key points, the one with the smaller index comes first. At most 65535 key
+/// points.
+///
+/// Thread contract: reentrant. Nothing allocates once `out` has grown.
+void find_neighbours(std::span<const KeyPoint> key_points, std::vector<Neighbours>& out);
 
 /// Finds features of a room seen through a mirror or fisheye lens (mathematics I.12). The bearings have descriptors and
 /// neighbours, and elevations if the rig's camera model knows them. Identities are assigned later, by data association.

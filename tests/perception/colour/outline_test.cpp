@@ -8,7 +8,6 @@
 #include <random>
 
 #include "slam/geometry/angle.hpp"
-#include "slam/perception/colour/radial_line.hpp"
 #include "tests/perception/colour/class_picture.hpp"
 
 namespace azimuth {

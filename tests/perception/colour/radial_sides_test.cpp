@@ -7,7 +7,7 @@
 #include <random>
 
 #include "slam/geometry/angle.hpp"
-#include "slam/perception/colour/radial_line.hpp"
+#include "slam/perception/colour/outline.hpp"
 #include "tests/perception/colour/class_picture.hpp"
 
 namespace azimuth {

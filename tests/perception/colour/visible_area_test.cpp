@@ -1,7 +1,6 @@
-#include "slam/perception/colour/visible_area.hpp"
-
 #include <gtest/gtest.h>
 
+#include "slam/perception/colour/colour_perception.hpp"
 #include "tests/support/printed_name.hpp"
 
 namespace azimuth {

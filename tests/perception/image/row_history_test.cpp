@@ -1,7 +1,7 @@
-#include "slam/perception/image/row_history.hpp"
-
 #include <gtest/gtest.h>
 #include <numeric>
+
+#include "slam/perception/image/image_watch.hpp"
 
 namespace azimuth {
 namespace {

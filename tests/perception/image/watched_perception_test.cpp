@@ -1,5 +1,3 @@
-#include "slam/perception/watched_perception.hpp"
-
 #include <gtest/gtest.h>
 
 #include "sim/renderer/standard_cameras.hpp"

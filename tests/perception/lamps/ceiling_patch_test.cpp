@@ -1,7 +1,6 @@
-#include "slam/perception/lamps/ceiling_patch.hpp"
-
 #include <gtest/gtest.h>
 
+#include "slam/perception/lamps/lamp_perception.hpp"
 #include "tests/camera/cameras.hpp"
 
 namespace azimuth {

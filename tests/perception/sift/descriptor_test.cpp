@@ -1,9 +1,8 @@
-#include "slam/perception/sift/descriptor.hpp"
-
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numeric>
 
+#include "slam/perception/sift/own_sift.hpp"
 #include "tests/perception/sift/pictures.hpp"
 
 namespace azimuth {

@@ -1,10 +1,9 @@
-#include "slam/perception/sift/neighbours.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 
 #include "sim/world/random.hpp"
+#include "slam/perception/sift/sift_perception.hpp"
 
 namespace azimuth {
 namespace {

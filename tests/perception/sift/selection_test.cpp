@@ -1,5 +1,3 @@
-#include "slam/perception/sift/selection.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +5,7 @@
 
 #include "sim/world/random.hpp"
 #include "slam/geometry/angle.hpp"
+#include "slam/perception/sift/sift_perception.hpp"
 
 namespace azimuth {
 namespace {
