@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kExact = 0.0;
 constexpr double kLogOddsAgainst = 3.0;  // prior log odds that a value of the rig is right: one in twenty is wrong
-constexpr double kLogOddsToStay = 0.0;   // below these log odds a doubted constant is trusted again
 // A doubted error below this many standard deviations, once other constants are doubted too, was caused by the other
 // constants and is no contradiction.
 constexpr double kTold_sigmas = 2.0;

@@ -14,6 +14,10 @@ inline constexpr double kScaleTurn = 0.3, kDrift_rad_per_m = 0.05, kYaw_rad = 0.
 /// ln of the odds needed to treat a value of the rig as wrong: one value in twenty is wrong, and acting on it takes
 /// odds of twenty to one.
 inline constexpr double kLogOddsToDoubt = 6.0;
+/// ln of the odds below which a doubted value is believed again.
+inline constexpr double kLogOddsToStay = 0.0;
+/// Bound on a plausible error, in standard deviations of a wrong rig.
+inline constexpr double kPossible_sigmas = 3.0;
 /// Error, in a filter's own standard deviations, below which the rig is not contradicted. Errors that several bearings
 /// share make a filter's covariance too small.
 inline constexpr double kCertainOfRig_sigmas = 6.0;

@@ -22,10 +22,8 @@ constexpr std::size_t kBearingsKept = 16;
 // Factor on the covariance. Members treat their associations as certain, so even when the associations are right,
 // squared errors are 2 to 3 times as large as their covariances say. The same holds for drawn maps (VI.31).
 constexpr double kOverconfident = 3.0;
-// As for landmarks with names: see RigBelief and NamedMapper.
-constexpr PoseId kJudgementsInGraph = 10;
-constexpr double kLogOddsToStay = 0.0, kPossible_sigmas = 3.0;
-constexpr double kNoPrior_rad = 1e3;
+constexpr PoseId kJudgementsInGraph = 10;  // the camera's yaw is judged when the graph has grown by one part of so many
+constexpr double kNoPrior_rad = 1e3;       // a prior that tells nothing beside the bearings
 
 /// Unites bearings that are too close to tell apart into their mean.
 void unite_near(std::vector<NamelessSighting>& sightings) {

@@ -9,8 +9,6 @@
 namespace azimuth {
 namespace {
 
-constexpr double kLogOddsToStay = 0.0;
-constexpr double kPossible_sigmas = 3.0;  // bound on a plausible error, in standard deviations of a wrong rig
 // Number of residuals that the rig's stated noise is worth, so that a short drive changes it little.
 constexpr double kSaidCountsAs = 20.0;
 // Exponent applied when the noise seems smaller than stated. A pose absorbs the errors that all bearings of its image
