@@ -13,6 +13,7 @@
 #include "slam/geometry/index.hpp"
 #include "slam/geometry/motion.hpp"
 #include "slam/geometry/pose2.hpp"
+#include "slam/geometry/wrong_rig.hpp"
 #include "slam/sample/map_snapshot.hpp"
 
 namespace azimuth {
@@ -103,12 +104,8 @@ class JointState {
   const Considered& believed() const { return believed_; }
   /// Information on the errors from the innovations so far. The innovations are nu = H D (error - believed) + noise of
   /// covariance S; adding H D believed makes them independent of `believed`.
-  struct Told {
-    /// D^T H^T S^-1 H D
-    Eigen::Matrix<double, kConsidered, kConsidered> information =
-        Eigen::Matrix<double, kConsidered, kConsidered>::Zero();
-    Considered pull = Considered::Zero();  ///< D^T H^T S^-1 (nu + H D believed)
-  };
+  /// The information is D^T H^T S^-1 H D, the pull D^T H^T S^-1 (nu + H D believed).
+  using Told = RigEvidence<kConsidered>;
   const Told& told_of_considered() const { return told_; }
   /// Moves the robot like move_robot() without B, and carries D along, with the derivative B = d(pose') / d(errors) of
   /// the motion.

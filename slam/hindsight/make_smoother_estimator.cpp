@@ -22,6 +22,14 @@ constexpr CalibrationPriors kIfWrong{.sigma_scale_turn = wrong_rig::kScaleTurn,
                                      .sigma_camera_m = wrong_rig::kCamera_m};
 constexpr double kStricterKernel = 2.0 / 3.0;  // factor on the kernel width of the second member
 
+CalibrationPriors calibration_of(const Rig& rig) {
+  return {.sigma_scale_turn = rig.odometry.sigma_scale_turn,
+          .sigma_drift_rad_per_m = rig.odometry.sigma_drift_rad_per_m,
+          .sigma_camera_yaw_rad = rig.camera.sigma_yaw_rad,
+          .sigma_lag_s = rig.odometry.sigma_lag_s,
+          .sigma_camera_m = rig.camera.sigma_position_m};
+}
+
 SmootherSettings graph_settings(const Rig& rig, const HindsightSettings& settings) {
   SmootherSettings graph;
   graph.inverse_depth_mean_per_m = settings.inverse_depth_mean_per_m;
@@ -29,11 +37,7 @@ SmootherSettings graph_settings(const Rig& rig, const HindsightSettings& setting
   graph.kernel = settings.kernel;
   graph.kernel_width = settings.kernel_width;
   graph.max_iterations = settings.max_iterations;
-  graph.calibration = {.sigma_scale_turn = rig.odometry.sigma_scale_turn,
-                       .sigma_drift_rad_per_m = rig.odometry.sigma_drift_rad_per_m,
-                       .sigma_camera_yaw_rad = rig.camera.sigma_yaw_rad,
-                       .sigma_lag_s = rig.odometry.sigma_lag_s,
-                       .sigma_camera_m = rig.camera.sigma_position_m};
+  graph.calibration = calibration_of(rig);
   return graph;
 }
 
@@ -78,8 +82,8 @@ std::unique_ptr<Mapper> nameless_mapper(const Rig& rig, const HindsightSettings&
   if (settings.members > 0) nameless.beam.members = settings.members;
   nameless.sigma_scale_distance = rig.odometry.sigma_scale_distance;
   nameless.sigma_scale_turn = rig.odometry.sigma_scale_turn;
-  nameless.sigma_yaw_rad = rig.camera.sigma_yaw_rad;
-  if (settings.doubt_rig) nameless.sigma_yaw_if_wrong_rad = wrong_rig::kYaw_rad;
+  nameless.rig = calibration_of(rig);
+  if (settings.doubt_rig) nameless.rig_if_wrong = kIfWrong;
   return std::make_unique<LateMapper>(
       std::make_unique<NamelessMapper>(nameless, helpers.make_workers(settings.threads)), helpers.make_task_runner());
 }

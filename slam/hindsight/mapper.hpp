@@ -21,6 +21,9 @@ namespace azimuth {
 /// Maximum number of iterations of the final optimisation; no drive needs nearly as many.
 inline constexpr int kIterationsToTheEnd = 200;
 
+/// The judgement of a drive that contradicts the rig by more than any rig is wrong.
+inline constexpr Judgement kFitsNoRig{Health::degraded, "bearings and odometry fit no rig like this one"};
+
 /// A landmark with its published id and its number in the graph.
 struct HindsightLandmark {
   std::int64_t id = 0;  ///< see LandmarkEstimate

@@ -66,7 +66,7 @@ void NamedMapper::judge_rig() {
 
 std::optional<Judgement> NamedMapper::doubt() const {
   const RigBelief& rig = best().rig();
-  if (rig.is_beyond_repair()) return Judgement{Health::degraded, "bearings and odometry fit no rig like this one"};
+  if (rig.is_beyond_repair()) return kFitsNoRig;
   if (rig.bearing_noise > kNoCamera) return Judgement{Health::degraded, "bearings are too noisy for any camera"};
   return std::nullopt;
 }

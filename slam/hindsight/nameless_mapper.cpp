@@ -42,7 +42,7 @@ void NamelessMapper::list_heard() {
     if (landmark == kOfNothing) continue;
     const BearingMeasurement& bearing = graph.bearing(id);
     heard_.push_back({.landmark_id = known(landmark).id,
-                      .azimuth_rad = wrap(bearing.azimuth_rad - nameless_.camera_yaw().error_rad),
+                      .azimuth_rad = wrap(bearing.azimuth_rad - calibration()[calibration::yaw]),
                       .sigma_rad = bearing.sigma_rad,
                       .established = true,
                       .agrees = true});
@@ -111,25 +111,13 @@ PoseGaussian NamelessMapper::pose() const {
 }
 
 std::optional<RigBelief> NamelessMapper::rig() const {
-  if (!nameless_.camera_yaw().doubted) return std::nullopt;
   RigBelief rig;
-  rig.doubted[calibration::yaw] = true;
-  return rig;
-}
-
-Calibration NamelessMapper::calibration() const {
-  Calibration error = Calibration::Zero();
-  error[calibration::yaw] = nameless_.camera_yaw().error_rad;
-  return error;
-}
-
-Calibration NamelessMapper::calibration_sigma() const {
-  Calibration sigma = Calibration::Zero();
-  sigma[calibration::yaw] = nameless_.camera_yaw().sigma_rad;
-  return sigma;
+  for (int i = 0; i < kCalibrations; ++i) rig.doubted[as_size(i)] = nameless_.rig_errors().is_contradicted(i);
+  return rig.doubts_any() ? std::optional(rig) : std::nullopt;
 }
 
 std::optional<Judgement> NamelessMapper::doubt() const {
+  if (nameless_.fits_no_rig()) return kFitsNoRig;
   const Trust trust = nameless_.trust();
   if (trust.trusted()) return std::nullopt;
   return Judgement{Health::degraded, trust.doubt};

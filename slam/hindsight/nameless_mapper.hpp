@@ -33,8 +33,8 @@ class NamelessMapper final : public Mapper {
   PoseGaussian past(PoseNumber number) const override;
   const std::vector<PoseNumber>& numbers() const override { return nameless_.numbers(); }
   std::optional<RigBelief> rig() const override;
-  Calibration calibration() const override;
-  Calibration calibration_sigma() const override;
+  Calibration calibration() const override { return nameless_.rig_errors().believable(); }
+  Calibration calibration_sigma() const override { return nameless_.rig_errors().sigma; }
   std::optional<Judgement> doubt() const override;
   std::optional<Scene> scene() const override { return nameless_.beam().best().scene(); }
   PoseNumber anchor() const override { return nameless_.anchor(); }

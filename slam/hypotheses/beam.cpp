@@ -80,9 +80,9 @@ void Beam::forget(std::span<const PoseId> images, Workers& workers) {
   conclude_image();
 }
 
-void Beam::turn_bearings(double turn_rad, Workers& workers) {
+void Beam::correct(const Calibration& errors, Workers& workers) {
   workers.for_each(members_.size(), [&](std::size_t i) {
-    members_[i].turn_bearings(turn_rad);
+    members_[i].correct(errors);
     energies_[i] = members_[i].energy();
     newest_covariances_[i] = members_[i].smoother().newest_covariance();
   });

@@ -45,8 +45,8 @@ class Beam {
   /// Removes these images, ascending, from all members: see Hypothesis.
   void forget(std::span<const PoseId> images, Workers& workers);
 
-  /// Adds `turn_rad` to all azimuths so far, in all members.
-  void turn_bearings(double turn_rad, Workers& workers);
+  /// Corrects odometry and azimuths so far for these errors of the rig, in all members.
+  void correct(const Calibration& errors, Workers& workers);
 
   /// The members, in no particular order.
   const std::vector<Hypothesis>& members() const { return members_; }

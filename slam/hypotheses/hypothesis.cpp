@@ -59,7 +59,9 @@ void Hypothesis::begin(std::span<const NamelessSighting> sightings) {
 void Hypothesis::add_image(const Motion& motion, std::span<const NamelessSighting> sightings, double after_s) {
   grown_.clear();
   time_s_.push_back(time_s_.back() + after_s);
-  smoother_.add_pose(motion);
+  ByLag by_lag = ByLag::Zero();
+  by_lag.col(0) = motion.by_lag;
+  smoother_.add_pose(motion, by_lag);
   add_sightings(sightings);
   associate(sightings);
 
@@ -98,7 +100,7 @@ Kind Hypothesis::kind_of(LandmarkId id) const {
 void Hypothesis::associate(std::span<const NamelessSighting> sightings) {
   smoother_.optimise(0);
   const PoseId newest = images() - 1;
-  PoseAndLandmarks belief{SmoothedPose(smoother_.newest_pose()), {}, {}, {}};
+  PoseAndLandmarks belief{graph().camera_at(newest), {}, {}, {}};
   std::vector<Block> blocks{graph().block_of_pose(newest)};
   const std::vector<LandmarkId> near = landmarks_near(newest);
   for (const LandmarkId id : near) {
@@ -142,7 +144,7 @@ std::vector<LandmarkId> Hypothesis::landmarks_near(PoseId since) const {
     const SmoothedLandmark& landmark = graph().landmark(id);
     bool is_near = !landmark.is_point();
     for (PoseId image = since; image < images() && !is_near; ++image)
-      is_near = (landmark.p_map() - graph().pose(image).position()).squaredNorm() < reach_m * reach_m;
+      is_near = (landmark.p_map() - graph().camera_at(image).T_map_body.position()).squaredNorm() < reach_m * reach_m;
     if (is_near) near.push_back(id);
   }
   return near;
@@ -156,8 +158,8 @@ void Hypothesis::assign(BearingId bearing, LandmarkId landmark) {
   smoother_.optimise();
 }
 
-void Hypothesis::turn_bearings(double turn_rad) {
-  smoother_.turn_bearings(turn_rad);
+void Hypothesis::correct(const Calibration& errors) {
+  smoother_.correct(errors);
   smoother_.optimise();
 }
 

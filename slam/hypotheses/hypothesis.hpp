@@ -83,8 +83,8 @@ class Hypothesis {
   void expect(const Scene& scene) { settings_.scene = scene; }
   /// Assigns a bearing to a landmark from outside; kOfNothing: to no landmark. Later images may change the association.
   void assign(BearingId bearing, LandmarkId landmark);
-  /// Adds `turn_rad` to all azimuths so far.
-  void turn_bearings(double turn_rad);
+  /// Corrects odometry and azimuths so far for these errors of the rig: see BearingGraph.
+  void correct(const Calibration& errors);
   /// Removes these images, and landmarks that keep hardly any bearing: see BearingGraph. All members of a beam must
   /// remove the same images, so that their energies stay comparable.
   void forget(std::span<const PoseId> images);

@@ -30,7 +30,7 @@ int Hypothesis::missed() const {
   std::vector<Stand> path;
   path.reserve(static_cast<std::size_t>(graph().poses()));
   for (PoseId id = 0; id < graph().poses(); ++id)
-    path.push_back({graph().pose(id).position(), graph().smoothed_pose(id).forwards});
+    path.push_back({graph().camera_at(id).T_map_body.position(), graph().smoothed_pose(id).forwards});
   const Scene& scene = settings_.scene;
   const double range2_m2 = scene.surely_seen_within_m() * scene.surely_seen_within_m();
   const bool all_round = scene.sees_all_round();

@@ -127,7 +127,7 @@ void Hypothesis::find_tracks_from(const WindowBelief& belief, PoseId anchor, Bea
   if (is_found(bearing, bearing) && anchor + 1 < images()) return;
   const SmootherSettings& smoother = settings_.smoother;
   const double sigma_rad = graph().bearing(bearing).sigma_rad, sigma_per_m = smoother.inverse_depth_sigma_per_m;
-  const Pose2& T = graph().pose(anchor);
+  const Pose2 T = graph().camera_at(anchor).T_map_body;
   Track ray;
   ray.bearings = {bearing};
   ray.kind = kinds_[bearing];
@@ -148,7 +148,7 @@ void Hypothesis::find_tracks_from(const WindowBelief& belief, PoseId anchor, Bea
 /// Adds a bearing to the track. Returns false and leaves the track unchanged when the bearing is outside its gate.
 bool Hypothesis::update_track(Track& track, PoseId pose_id, BearingId bearing, const WindowBelief& belief,
                               double& log_density) const {
-  const SmoothedPose& pose = graph().smoothed_pose(pose_id);
+  const SmoothedPose pose = graph().camera_at(pose_id);
   const BearingMeasurement& measured = graph().bearing(bearing);
   SeenAzimuth seen;
   if (!see(pose, track.landmark, settings_.smoother.min_distance_m, seen)) return false;
@@ -180,7 +180,7 @@ bool Hypothesis::walk(const WindowBelief& belief, Track& track, PoseId anchor, P
     const auto images_left = static_cast<std::size_t>(id - belief.first() + 1);
     if (track.bearings.size() + images_left < static_cast<std::size_t>(member_.min_hits)) return false;
     if (id == second) continue;
-    const SmoothedPose& pose = graph().smoothed_pose(id);
+    const SmoothedPose pose = graph().camera_at(id);
     const double distance_m = (track.landmark.p_map() - pose.T_map_body.position()).norm();
     SeenAzimuth seen;
     if (distance_m > asked_m || !see(pose, track.landmark, settings_.smoother.min_distance_m, seen)) continue;

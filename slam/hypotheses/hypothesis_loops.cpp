@@ -20,15 +20,6 @@ constexpr double kReachSigmas = 3.0, kReachShare = 0.25;
 // Maximum number of optimisations, since a path that bends far may need several.
 constexpr int kMostOptimisations = 2;
 
-Motion motion_of(const OdometryMeasurement& odometry) {
-  Motion motion;
-  motion.T_start_end = {odometry.relative.x(), odometry.relative.y(), odometry.relative.z()};
-  motion.covariance = odometry.covariance();
-  motion.path_m = odometry.relative.head<2>().norm();
-  motion.turned_rad = std::abs(odometry.relative.z());
-  return motion;
-}
-
 SmoothedLandmark carried(const SmoothedLandmark& landmark, const Pose2& T) {
   return {T * landmark.p_map_chart, landmark.direction_rad + T.heading_rad, landmark.inverse_distance_per_m};
 }
@@ -84,7 +75,7 @@ bool Hypothesis::close_loop() {
 
   const std::vector<ImageToRead> read = images_to_read(since);
   const double sigma_m = std::sqrt(smoother_.pose_covariance(since).topLeftCorner<2, 2>().trace());
-  const PositionPrior position_prior{graph().pose(since).position(),
+  const PositionPrior position_prior{graph().camera_at(since).T_map_body.position(),
                                      kReachSigmas * sigma_m + kReachShare * settings_.scene.range_m};
   const std::vector<PoseGaussian> found = find_in_map(map, read, settings_.scene, position_prior);
   if (found.empty()) return false;
@@ -101,7 +92,7 @@ void Hypothesis::take_over(const Reading& reading, PoseId since, std::span<const
   const auto is_mapped = [&](LandmarkId id) { return std::find(map.begin(), map.end(), id) != map.end(); };
   BearingGraph::Values values = graph().values();
   for (PoseId image = since; image < images(); ++image)
-    values.poses[as_size(image)] = reading.poses[as_size(image - since)];
+    values.poses[as_size(image)] = SmoothedPose(graph().body_at(reading.poses[as_size(image - since)].T_map_body));
   // Landmarks found since then move along with the image that showed them first.
   for (const LandmarkId id : landmarks_) {
     if (is_mapped(id) || graph().bearings_of(id).empty()) continue;

@@ -34,7 +34,7 @@ void Hypothesis::reassociate(const WindowBelief& belief, PoseId from) {
 
 /// Associates one image anew. Returns true when an association has changed.
 bool Hypothesis::reassociate_image(const WindowBelief& belief, PoseId image) {
-  const SmoothedPose& pose = graph().smoothed_pose(image);
+  const SmoothedPose pose = graph().camera_at(image);
   const BearingId first = first_bearing(image), end = first_bearing(image + 1);
   if (first == end) return false;
   const double max2_m2 = settings_.scene.asked_within_m() * settings_.scene.asked_within_m();

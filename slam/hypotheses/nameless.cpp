@@ -22,8 +22,20 @@ constexpr std::size_t kBearingsKept = 16;
 // Factor on the covariance. Members treat their associations as certain, so even when the associations are right,
 // squared errors are 2 to 3 times as large as their covariances say. The same holds for drawn maps (VI.31).
 constexpr double kOverconfident = 3.0;
-constexpr PoseId kJudgementsInGraph = 10;  // the camera's yaw is judged when the graph has grown by one part of so many
-constexpr double kNoPrior_rad = 1e3;       // a prior that tells nothing beside the bearings
+constexpr PoseId kJudgementsInGraph = 10;  // the rig is judged when the graph has grown by one part of so many
+// A value is corrected once it is more probably wrong than right. What later evidence speaks against is taken back,
+// since the whole graph is judged anew.
+constexpr RigDemands kToCorrect{.log_odds = kLogOddsProbable};
+
+/// The motion of a robot whose odometry has these errors.
+Motion without(const Calibration& errors, Motion motion) {
+  if (errors.isZero(0.0)) return motion;
+  const Eigen::Vector3d off = motion.by_scales * errors.segment<2>(calibration::scale_distance) +
+                              motion.by_drift * errors[calibration::drift] + motion.by_lag * errors[calibration::lag];
+  Pose2& T = motion.T_start_end;
+  T = {T.x_m + off.x(), T.y_m + off.y(), wrap(T.heading_rad + off.z())};
+  return motion;
+}
 
 /// Unites bearings that are too close to tell apart into their mean.
 void unite_near(std::vector<NamelessSighting>& sightings) {
@@ -62,14 +74,16 @@ void Nameless::remember(const MapSnapshot& map, const Eigen::Matrix3d& moved) {
   while (path_.newest() + 1 < beam_.images()) path_.add_pose();
   bearings_so_far_ = map.next_id;
   start_ = beam_.newest_pose();
+  start_number_ = path_.newest();
   other_answers_.assign(as_size(beam_.images()), start_);
   drawn_.reset();  // drawn maps cannot start from a saved map
   evidence_ = trust_evidence(beam_, odometry_alone());
 }
 
 void Nameless::predict(const Motion& motion) {
-  motion_.append_motion(motion);
-  if (has_begun()) whole_motion_.append_motion(motion);
+  const Motion right = without(corrected_, motion);
+  motion_.append_motion(right);
+  if (has_begun()) whole_motion_.append_motion(right);
 }
 
 /// Turns the pose into a motion from the last image, which then applies to all members.
@@ -85,6 +99,7 @@ void Nameless::place(const Beam::PoseBelief& robot) {
   motion_.append_motion(motion);
   whole_motion_.pose_added();
   start_ = robot;
+  start_number_ = path_.newest() + 1;
 }
 
 bool Nameless::is_used(const BearingSet& set) const {
@@ -101,8 +116,9 @@ bool Nameless::update(const BearingSet& set, Workers& workers) {
   sightings_.clear();
   const double sigma_rad = settings_.beam.hypothesis.scene.sigma_bearing_rad;
   for (const Bearing& bearing : set.bearings)
-    sightings_.push_back({camera_yaw_.doubted ? wrap(bearing.azimuth_rad + camera_yaw_.error_rad) : bearing.azimuth_rad,
-                          std::isnan(bearing.sigma_rad) ? sigma_rad : bearing.sigma_rad, bearing.kind});
+    sightings_.push_back(
+        {corrected_.isZero(0.0) ? bearing.azimuth_rad : wrap(bearing.azimuth_rad + corrected_[calibration::yaw]),
+         std::isnan(bearing.sigma_rad) ? sigma_rad : bearing.sigma_rad, bearing.kind});
   if (settings_.beam.hypothesis.tracks.used) unite_near(sightings_);
   if (has_begun()) {
     const double after_s = last_used_ ? to_seconds(set.stamp - *last_used_) : 0.0;
@@ -116,35 +132,46 @@ bool Nameless::update(const BearingSet& set, Workers& workers) {
   for (std::size_t i = 0; i < sightings_.size(); ++i) bearing_numbers_.push_back(bearings_so_far_++);
   last_used_ = set.stamp;
   motion_.pose_added();
-  judge_yaw(workers);
+  judge_rig(workers);
   evidence_ = trust_evidence(beam_, odometry_alone());
   recent_doubts_.add(evidence_);
   other_answers_.push_back(is_drawn() ? pose_by_drawn_maps() : odometry_alone());
   return true;
 }
 
-/// Judges the camera's yaw from the best member's whole graph, again whenever the graph has grown by a tenth.
-void Nameless::judge_yaw(Workers& workers) {
-  const double narrow_rad = settings_.sigma_yaw_rad, wide_rad = settings_.sigma_yaw_if_wrong_rad;
-  if (drawn_ || !(narrow_rad > 0.0 && wide_rad > narrow_rad)) return;
-  if (kJudgementsInGraph * ++images_since_judged_ < beam_.images()) return;
+/// Judges the rig from the best member's whole graph, again whenever the graph has grown by a tenth.
+void Nameless::judge_rig(Workers& workers) {
+  const Calibration said = sigmas(settings_.rig), if_wrong = sigmas(settings_.rig_if_wrong);
+  if (drawn_ || kJudgementsInGraph * ++images_since_judged_ < beam_.images()) return;
   images_since_judged_ = 0;
-  const Smoother::Told told = beam_.best().smoother().camera_yaw_rad();
-  const double information = told.information;
-  if (!(information > 0.0)) return;
-  const double error_rad = camera_yaw_.error_rad + told.value;  // without a prior
-  const double log_odds = log_evidence(error_rad, 1.0 / information, kNoPrior_rad, wide_rad, narrow_rad);
-  CameraYaw next;
-  next.doubted = log_odds > (camera_yaw_.doubted ? kLogOddsToStay : kLogOddsToDoubt) &&
-                 std::abs(error_rad) < kPossible_sigmas * wide_rad;
-  if (next.doubted) {
-    const double variance_rad2 = 1.0 / (information + 1.0 / (wide_rad * wide_rad));
-    next.error_rad = variance_rad2 * information * error_rad;
-    next.sigma_rad = std::sqrt(variance_rad2);
+  RigEvidence<kCalibrations> evidence = beam_.best().smoother().rig_evidence();
+  evidence.pull += evidence.information * corrected_;  // of the whole error
+  const auto before = rig_errors_.doubted;
+  rig_errors_ = judged<kCalibrations>(evidence, said.cwiseAbs2(), if_wrong, before, kToCorrect);
+  const Calibration errors = rig_errors_.believable();
+  fits_no_rig_ = (errors.cwiseAbs().array() > kPossible_sigmas * if_wrong.array()).any();
+  if (fits_no_rig_) rig_errors_ = {.sigma = said};
+  if (const Calibration more = rig_errors_.believable() - corrected_; !more.isZero(0.0)) correct(more, workers);
+  if (rig_errors_.doubted != before) recent_doubts_ = {};  // they were about the rig as it was
+}
+
+/// Corrects all that was measured so far. What odometry alone told is composed anew, since a wrong scale of turns bends
+/// long ways by more than a first order tells.
+void Nameless::correct(const Calibration& errors, Workers& workers) {
+  corrected_ += errors;
+  beam_.correct(errors, workers);
+  const BearingGraph& graph = beam_.best().graph();
+  const std::vector<PoseNumber>& numbers = path_.numbers();
+  const auto start = std::ranges::lower_bound(numbers, start_number_);
+  auto id = static_cast<PoseId>(start - numbers.begin());
+  start_.T_map_body = graph.pose(id);
+  Motion way;
+  while (++id < graph.poses()) {
+    append(way, motion_of(graph.odometry_to(id)));
+    whole_motion_.restart(way);
+    if (const std::size_t number = as_size(numbers[as_size(id)]); number < other_answers_.size())
+      other_answers_[number] = odometry_alone();
   }
-  const double turn_rad = next.error_rad - camera_yaw_.error_rad;
-  camera_yaw_ = next;
-  if (turn_rad != 0.0) beam_.turn_bearings(turn_rad, workers);
 }
 
 void Nameless::forget(Workers& workers) {

@@ -29,9 +29,9 @@ struct NamelessSettings {
   /// (mathematics VI.24); 0: no limit.
   int max_keyframes = 0;
   MotionFloors floors;
-  /// Standard deviation of the camera's yaw as the rig states it, and of the yaw of a camera that is not mounted as the
-  /// rig says (mathematics VI.33); 0: the rig's yaw is never doubted.
-  double sigma_yaw_rad = 0.0, sigma_yaw_if_wrong_rad = 0.0;
+  /// Standard deviations of the rig's values as the rig states them, and those of a wrong rig (mathematics VI.33); 0:
+  /// the value is exact, or never doubted.
+  CalibrationPriors rig, rig_if_wrong;
   /// Relative standard deviations of the remaining scale errors of odometry.
   double sigma_scale_distance = 0.01, sigma_scale_turn = 0.01;
 };
@@ -89,16 +89,15 @@ class Nameless {
 
   const Beam& beam() const { return beam_; }
 
-  /// The error of the rig's yaw of the camera, once the drive contradicts the rig; the graphs' azimuths are corrected
-  /// by it. Without contradiction, or with drawn maps, the value is zero.
-  struct CameraYaw {
-    bool doubted = false;
-    double error_rad = 0.0, sigma_rad = 0.0;
-  };
-  const CameraYaw& camera_yaw() const { return camera_yaw_; }
+  /// The errors of the rig's values. Odometry and azimuths are corrected by those that the drive contradicts. With
+  /// drawn maps the rig is believed.
+  const RigErrors<kCalibrations>& rig_errors() const { return rig_errors_; }
+  /// Whether the drive contradicts the rig by more than any rig is wrong, so that something else must be.
+  bool fits_no_rig() const { return fits_no_rig_; }
 
  private:
-  void judge_yaw(Workers& workers);
+  void judge_rig(Workers& workers);
+  void correct(const Calibration& errors, Workers& workers);
   bool has_begun() const { return beam_.images() > 0; }
   bool is_used(const BearingSet& set) const;
   Motion way_to_image() const;
@@ -121,8 +120,11 @@ class Nameless {
   std::vector<std::int64_t> bearing_numbers_;  // number of each bearing in the graphs
   std::int64_t bearings_so_far_ = 0;
   std::optional<Stamp> last_used_;
-  CameraYaw camera_yaw_;
+  RigErrors<kCalibrations> rig_errors_;
+  Calibration corrected_ = Calibration::Zero();  // the errors that odometry and azimuths are corrected for
+  bool fits_no_rig_ = false;
   PoseId images_since_judged_ = 0;
+  PoseNumber start_number_ = 0;  // the pose at start_
   std::vector<NamelessSighting> sightings_;
 };
 

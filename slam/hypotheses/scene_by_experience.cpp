@@ -105,10 +105,10 @@ RangeBelief range_by_experience(const Scene& given, const BearingGraph& graph, s
     const Eigen::Vector2d p = graph.landmark(id).p_map();
     const PoseId begin = std::max(first - kImagesAround, 0), end = std::min(last + kImagesAround + 1, graph.poses());
     for (PoseId from = begin; from < end; ++from) {
-      const double distance2_m2 = (p - graph.pose(from).position()).squaredNorm();
+      const double distance2_m2 = (p - graph.camera_at(from).T_map_body.position()).squaredNorm();
       if (distance2_m2 >= furthest2_m2) continue;
       const bool seen = is_seen_from[as_size(from)] != 0;
-      if (seen || in_view(given, graph.smoothed_pose(from), p)) evidence.add(std::sqrt(distance2_m2), seen);
+      if (seen || in_view(given, graph.camera_at(from), p)) evidence.add(std::sqrt(distance2_m2), seen);
     }
     for (const BearingId bearing : bearings) is_seen_from[as_size(graph.bearing(bearing).pose)] = 0;
   }

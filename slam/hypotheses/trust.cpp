@@ -54,12 +54,12 @@ double share_missing(const Hypothesis& hypothesis) {
     for (BearingId id = hypothesis.first_bearing(image); id < hypothesis.first_bearing(image + 1); ++id)
       seen.push_back(graph.landmark_of(id));
     if (seen.empty()) continue;
-    const Pose2& T_map_body = graph.pose(image);
+    const Pose2 T_map_camera = graph.camera_at(image).T_map_body;
     for (const LandmarkId id : hypothesis.landmarks()) {
       const SmoothedLandmark& landmark = graph.landmark(id);
       if (!landmark.is_point() || graph.bearings_of(id).size() < kEstablished) continue;
-      const Eigen::Vector2d away = landmark.p_map() - T_map_body.position();
-      const double azimuth_rad = wrap(std::atan2(away.y(), away.x()) - T_map_body.heading_rad);
+      const Eigen::Vector2d away = landmark.p_map() - T_map_camera.position();
+      const double azimuth_rad = wrap(std::atan2(away.y(), away.x()) - T_map_camera.heading_rad);
       if (away.norm() > scene.surely_seen_within_m() || !scene.in_view(azimuth_rad)) continue;
       ++expected;
       missing += std::ranges::find(seen, id) == seen.end() ? 1 : 0;

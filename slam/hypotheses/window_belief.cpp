@@ -35,6 +35,7 @@ WindowBelief::WindowBelief(const Smoother& smoother, PoseId first, std::span<con
   variances_.assign(poses_ * landmarks_, -1.0);
   for (std::size_t i = 0; i < poses_; ++i) {
     const SmoothedPose& pose = graph.smoothed_pose(first + static_cast<PoseId>(i));
+    const SmoothedPose camera = graph.camera_at(first + static_cast<PoseId>(i));
     // A is the change of this pose when the newest pose moves and everything moves with it.
     const Eigen::Vector2d from_end = pose.T_map_body.position() - end.T_map_body.position();
     const Eigen::Vector2d turned = pose.to_body({-from_end.y(), from_end.x()});
@@ -52,7 +53,7 @@ WindowBelief::WindowBelief(const Smoother& smoother, PoseId first, std::span<con
     const bool is_free = graph.size(blocks[i]) > 0;
     for (std::size_t j = 0; j < landmarks_; ++j) {
       SeenAzimuth seen;
-      if (!see(pose, graph.landmark(landmarks[j]), min_distance_m, seen)) continue;
+      if (!see(camera, graph.landmark(landmarks[j]), min_distance_m, seen)) continue;
       const Eigen::Index row = starts[poses_ + j];
       double variance =
           seen.by_landmark.dot(P.block<2, 2>(row, row) * seen.by_landmark) + seen.by_pose.dot(own * seen.by_pose);

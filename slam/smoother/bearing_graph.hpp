@@ -101,6 +101,9 @@ class BearingGraph : public NormalEquations {
   SmoothedPose camera_at(const SmoothedPose& body) const {
     return body.moved({calibration_[calibration::camera_x], calibration_[calibration::camera_y], 0.0});
   }
+  SmoothedPose camera_at(PoseId id) const {
+    return calibration_.tail<2>().isZero(0.0) ? poses_[id].state : camera_at(poses_[id].state);
+  }
   Pose2 body_at(const Pose2& T_map_camera) const {
     return T_map_camera * Pose2{-calibration_[calibration::camera_x], -calibration_[calibration::camera_y], 0.0};
   }
@@ -144,14 +147,17 @@ class BearingGraph : public NormalEquations {
   /// (Hutchinson's trace estimate).
   Eigen::VectorXd signed_sum_of_bearings(std::uint64_t seed) const;
   Eigen::VectorXd signed_sum_of_odometry(std::uint64_t seed, int stride) const;
-  /// Derivatives of the energy by the camera's yaw, which need not be an unknown, as of the last evaluate().
-  struct ByYaw {
-    double slope = 0.0, curvature = 0.0;
-    Eigen::VectorXd mixed;  ///< d2 energy / (d yaw d unknowns)
+  /// Derivatives of the energy by the calibration values, which need not be unknowns, as of the last evaluate().
+  struct ByCalibration {
+    Calibration slope = Calibration::Zero();
+    Eigen::Matrix<double, kCalibrations, kCalibrations> curvature =
+        Eigen::Matrix<double, kCalibrations, kCalibrations>::Zero();
+    Eigen::Matrix<double, Eigen::Dynamic, kCalibrations> mixed;  ///< d2 energy / (d unknowns d calibration)
   };
-  ByYaw by_yaw() const;
-  /// Adds `turn_rad` to all azimuths so far.
-  void turn_bearings(double turn_rad);
+  ByCalibration by_calibration() const;
+  /// Corrects odometry and azimuths so far for these errors of the rig, and adds the camera's position to
+  /// calibration(). None of the values may be an unknown.
+  void correct(const Calibration& errors);
   /// Sets the robust kernel; it takes effect with the next evaluate().
   void set_kernel(RobustKernel kernel, double width);
   const Eigen::VectorXd& gradient() const { return gradient_; }

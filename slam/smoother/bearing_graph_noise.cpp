@@ -1,4 +1,5 @@
-// The misfit of bearings and odometry, and the share of their residuals that the unknowns take up.
+// The misfit of bearings and odometry, the share of their residuals that the unknowns take up, and what they tell of
+// the rig.
 
 #include <cassert>
 #include <cmath>
@@ -70,25 +71,50 @@ Eigen::VectorXd BearingGraph::signed_sum_of_bearings(std::uint64_t seed) const {
   return sum;
 }
 
-BearingGraph::ByYaw BearingGraph::by_yaw() const {
-  ByYaw by{.mixed = Eigen::VectorXd::Zero(rows_)};
+BearingGraph::ByCalibration BearingGraph::by_calibration() const {
+  ByCalibration by{.mixed = Eigen::Matrix<double, Eigen::Dynamic, kCalibrations>::Zero(rows_, kCalibrations)};
+  for (PoseId id = 1; id < poses_.size(); ++id) {
+    const OdometryMeasurement& measured = odometry_[id];
+    const PoseEntry &start = poses_[id - 1], &end = poses_[id];
+    const SeenMotion seen = see_motion(start.state, end.state);
+    const Eigen::Matrix<double, 3, kOdometryCalibrations> by_errors = -measured.whitening * measured.by_calibration;
+    const Eigen::Matrix<double, 3, kOdometryCalibrations> pull = measured.whitening.transpose() * by_errors;
+    by.slope.head<kOdometryCalibrations>() -= measured.by_calibration.transpose() * end.pull;
+    by.curvature.topLeftCorner<kOdometryCalibrations, kOdometryCalibrations>() += by_errors.transpose() * by_errors;
+    if (size(start.block) > 0)
+      by.mixed.block<3, kOdometryCalibrations>(first_row(start.block), 0) += seen.by_start.transpose() * pull;
+    by.mixed.block<3, kOdometryCalibrations>(first_row(end.block), 0) += seen.by_end.transpose() * pull;
+  }
   for (BearingId id = 0; id < bearings_.size(); ++id) {
     if (landmark_of(id) == kOfNothing) continue;
     const Link& link = links_[id];
-    const double weight_per_sigma = link.weight / bearings_[id].sigma_rad;
-    by.slope -= weight_per_sigma * link.residual;
-    by.curvature += weight_per_sigma / bearings_[id].sigma_rad;
-    add_pull(link, bearings_[id], -weight_per_sigma, by.mixed);
+    const ByCamera by_errors = by_camera(link, bearings_[id]);
+    const ByCamera weighted = link.weight * by_errors;
+    by.slope.tail<kCameraCalibrations>() += link.residual * weighted;
+    by.curvature.bottomRightCorner<kCameraCalibrations, kCameraCalibrations>() += weighted * by_errors.transpose();
+    const Block pose = poses_[bearings_[id].pose].block;
+    if (size(pose) > 0)
+      by.mixed.block<3, kCameraCalibrations>(first_row(pose), kOdometryCalibrations) +=
+          link.by_pose * weighted.transpose();
+    by.mixed.block<2, kCameraCalibrations>(first_row(landmarks_[link.landmark].block), kOdometryCalibrations) +=
+        link.by_landmark * weighted.transpose();
   }
   return by;
 }
 
-void BearingGraph::turn_bearings(double turn_rad) {
+void BearingGraph::correct(const Calibration& errors) {
   for (BearingId id = 0; id < bearings_.size(); ++id) {
     BearingMeasurement& measured = bearings_.edit(id);
-    measured.azimuth_rad = wrap(measured.azimuth_rad + turn_rad);
+    measured.azimuth_rad = wrap(measured.azimuth_rad + errors[calibration::yaw]);
     links_.edit(id).changed = true;
   }
+  for (PoseId id = 1; id < poses_.size(); ++id) {
+    OdometryMeasurement& measured = odometry_.edit(id);
+    measured.relative += measured.by_calibration * errors.head<kOdometryCalibrations>();
+    measured.relative.z() = wrap(measured.relative.z());
+  }
+  for (const int i : {calibration::camera_x, calibration::camera_y}) calibration_[i] += errors[i];
+  for (PoseId id = 0; id < poses_.size(); ++id) poses_.edit(id).moved = true;
 }
 
 Eigen::VectorXd BearingGraph::signed_sum_of_odometry(std::uint64_t seed, int stride) const {

@@ -38,6 +38,12 @@ class MotionSincePose {
     moving_s_ = 0.0;
   }
 
+  /// Replaces the motion since the pose by one that contains the floors.
+  void restart(const Motion& motion) {
+    motion_ = motion;
+    moving_s_ = 0.0;
+  }
+
   const Motion& motion() const { return motion_; }
   Motion with_floors() const {
     Motion motion = motion_;

@@ -41,6 +41,16 @@ OdometryMeasurement odometry_measurement(const Motion& motion, const ByLag& by_l
   return measured;
 }
 
+Motion motion_of(const OdometryMeasurement& measured) {
+  Motion motion;
+  motion.T_start_end = {measured.relative.x(), measured.relative.y(), measured.relative.z()};
+  motion.covariance = measured.covariance();
+  motion.path_m = measured.relative.head<2>().norm();
+  motion.turned_rad = std::abs(measured.relative.z());
+  motion.by_scales = measured.by_calibration.leftCols<2>();
+  return motion;
+}
+
 OdometryMeasurement composed(const OdometryMeasurement& first, const OdometryMeasurement& second) {
   Eigen::Matrix3d turned = Eigen::Matrix3d::Identity();
   turned.topLeftCorner<2, 2>() = rotation(first.relative.z());

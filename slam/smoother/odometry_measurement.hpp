@@ -27,6 +27,9 @@ struct OdometryMeasurement {
 /// `motion.covariance` must be positive definite.
 OdometryMeasurement odometry_measurement(const Motion& motion, const ByLag& by_lag = ByLag::Zero());
 
+/// The motion that was measured, without the derivative by the lag. Its length is that of the chord.
+Motion motion_of(const OdometryMeasurement& measured);
+
 /// Composes two measurements; `second` begins where `first` ends.
 OdometryMeasurement composed(const OdometryMeasurement& first, const OdometryMeasurement& second);
 

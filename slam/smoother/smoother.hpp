@@ -4,6 +4,7 @@
 #include <span>
 #include <variant>
 
+#include "slam/geometry/wrong_rig.hpp"
 #include "slam/smoother/bearing_graph.hpp"
 #include "slam/smoother/front_tree.hpp"
 
@@ -97,15 +98,11 @@ class Smoother {
   Noise bearing_noise() const;
   /// The ratio of actual to stated noise of odometry composed over `stride` poses at a time.
   Noise odometry_noise(int stride) const;
-  /// What bearings and odometry tell about a value, without a prior.
-  struct Told {
-    double value = 0.0;
-    double information = 0.0;  ///< inverse variance; 0: nothing is told
-  };
-  /// The error of the camera's yaw, which need not be an unknown, to first order and as of the last optimise().
-  Told camera_yaw_rad() const;
-  /// Adds `turn_rad` to all azimuths so far. The caller must call optimise() afterwards.
-  void turn_bearings(double turn_rad) { graph_.turn_bearings(turn_rad); }
+  /// What bearings and odometry tell about the calibration values, which need not be unknowns and must have no prior
+  /// here, to first order and as of the last optimise() (mathematics VI.33).
+  RigEvidence<kCalibrations> rig_evidence() const;
+  /// Corrects odometry and azimuths so far: see BearingGraph. The caller must call optimise() afterwards.
+  void correct(const Calibration& errors) { graph_.correct(errors); }
   /// Multiplies the standard deviations of all bearings and of all odometry so far. The caller must call optimise()
   /// afterwards.
   void scale_noise(double bearings, double odometry);

@@ -59,13 +59,30 @@ Smoother::Noise Smoother::odometry_noise(int stride) const {
   return noise_by(misfit.chi2, misfit.residuals - taken);
 }
 
-/// The unknowns follow the yaw; what they take up of its curvature tells nothing (Schur complement).
-Smoother::Told Smoother::camera_yaw_rad() const {
-  BearingGraph::ByYaw by = graph_.by_yaw();
-  factor_.forwards(by.mixed);
-  const double information = by.curvature - by.mixed.squaredNorm();
-  if (!(information > kLeastShareTold * by.curvature)) return {};
-  return {.value = -by.slope / information, .information = information};
+/// The unknowns follow the rig's errors; what they take up of the curvature tells nothing (Schur complement). It is
+/// nearly all of it, so the factor must be exact, and what is left of the gradient counts.
+RigEvidence<kCalibrations> Smoother::rig_evidence() const {
+  Smoother exact = *this;
+  exact.start_factor_anew();
+  exact.optimise(0);
+  BearingGraph::ByCalibration by = exact.graph_.by_calibration();
+  Eigen::VectorXd gradient = exact.graph_.gradient();
+  exact.factor_.forwards(gradient);
+  for (int i = 0; i < kCalibrations; ++i) {
+    if (!(by.curvature(i, i) > 0.0)) continue;
+    Eigen::VectorXd column = by.mixed.col(i);
+    exact.factor_.forwards(column);
+    by.mixed.col(i) = column;
+  }
+  RigEvidence<kCalibrations> evidence{.information = by.curvature - by.mixed.transpose() * by.mixed,
+                                      .pull = by.mixed.transpose() * gradient - by.slope};
+  for (int i = 0; i < kCalibrations; ++i) {
+    if (evidence.information(i, i) > kLeastShareTold * by.curvature(i, i)) continue;
+    evidence.information.row(i).setZero();
+    evidence.information.col(i).setZero();
+    evidence.pull[i] = 0.0;
+  }
+  return evidence;
 }
 
 void Smoother::scale_noise(double bearings, double odometry) {
