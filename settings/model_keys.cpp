@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "slam/camera/model_parameters.hpp"
+#include "slam/camera/camera_rig.hpp"
 
 namespace azimuth {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "settings/section.hpp"
-#include "slam/camera/model_rig.hpp"
+#include "slam/camera/camera_rig.hpp"
 
 namespace azimuth {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "slam/camera/model_parameters.hpp"
+#include "slam/camera/camera_rig.hpp"
 #include "slam/geometry/angle.hpp"
 
 namespace azimuth {

@@ -5,12 +5,8 @@
 #include <variant>
 
 #include "slam/camera/camera_tilt.hpp"
-#include "slam/camera/equidistant_fisheye.hpp"
-#include "slam/camera/hyperbolic_mirror.hpp"
 #include "slam/camera/image_axes.hpp"
-#include "slam/camera/pajdla_fisheye.hpp"
-#include "slam/camera/parabolic_mirror.hpp"
-#include "slam/camera/polynomial_fisheye.hpp"
+#include "slam/camera/radial_profiles.hpp"
 
 namespace azimuth {
 

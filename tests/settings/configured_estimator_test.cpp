@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "settings/rig.hpp"
-#include "slam/camera/model_parameters.hpp"
+#include "slam/camera/camera_rig.hpp"
 
 namespace azimuth {
 namespace {

@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 #include <map>
 
+#include "slam/camera/camera_rig.hpp"
 #include "slam/camera/make_camera.hpp"
-#include "slam/camera/model_parameters.hpp"
 #include "tests/support/data.hpp"
 
 namespace azimuth {

@@ -7,7 +7,7 @@
 #include "slam/camera/camera_rig.hpp"
 #include "slam/camera/camera_tilt.hpp"
 #include "slam/camera/image_axes.hpp"
-#include "slam/camera/polynomial_fisheye.hpp"
+#include "slam/camera/radial_profiles.hpp"
 #include "slam/geometry/index.hpp"
 
 namespace azimuth {
@@ -18,7 +18,7 @@ inline constexpr int kLensNumbers = 7;
 using LensVector = Eigen::Matrix<double, kLensNumbers, 1>;
 using LensCovariance = Eigen::Matrix<double, kLensNumbers, kLensNumbers>;
 
-/// The polynomial fisheye (slam/camera/polynomial_fisheye.hpp) with radii in units of `radius_px`, so that all
+/// The polynomial fisheye (slam/camera/radial_profiles.hpp) with radii in units of `radius_px`, so that all
 /// coefficients have a similar size:
 ///
 ///   rho Z + F(rho) d = 0,  F(rho) = c0 + c2 rho^2 + c3 rho^3 + c4 rho^4,  r = radius_px rho

@@ -1,9 +1,10 @@
-#include "slam/camera/model_parameters.hpp"
+#include "slam/camera/camera_rig.hpp"
 
 #include <cstddef>
 #include <utility>
 
 namespace azimuth {
+
 namespace {
 
 struct ParametersOf {
