@@ -4,8 +4,8 @@
 
 #include "settings/refining_estimator.hpp"
 #include "slam/ceiling/make_lamp_ekf_estimator.hpp"
-#include "slam/estimator/map_fitness.hpp"
 #include "slam/estimator/mounted_estimator.hpp"
+#include "slam/estimator/start_from_map.hpp"
 #include "slam/particles/make_fastslam_estimator.hpp"
 #include "slam/planar/make_ekf_estimator.hpp"
 

@@ -17,7 +17,7 @@
 #include "drivers/device/odometer_memory.hpp"
 #include "slam/estimator/estimator_stage.hpp"
 #include "slam/sample/map_snapshot.hpp"
-#include "slam/sample/odometry_since.hpp"
+#include "slam/sample/odometry.hpp"
 
 namespace azimuth {
 

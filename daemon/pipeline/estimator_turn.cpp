@@ -4,7 +4,7 @@
 
 #include "daemon/pipeline/paces.hpp"
 #include "daemon/pipeline/storage.hpp"
-#include "slam/estimator/landmark_ids.hpp"
+#include "slam/estimator/estimate.hpp"
 
 namespace azimuth {
 

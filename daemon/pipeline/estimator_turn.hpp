@@ -14,7 +14,7 @@
 #include "slam/estimator/estimate_digest.hpp"
 #include "slam/estimator/estimator_stage.hpp"
 #include "slam/sample/map_snapshot.hpp"
-#include "slam/sample/odometry_since.hpp"
+#include "slam/sample/odometry.hpp"
 
 namespace azimuth {
 

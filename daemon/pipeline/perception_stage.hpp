@@ -8,7 +8,7 @@
 #include "daemon/publish/status.hpp"
 #include "drivers/camera/frame.hpp"
 #include "drivers/camera/jpeg.hpp"
-#include "slam/perception/image_stage.hpp"
+#include "slam/perception/perception.hpp"
 #include "slam/sample/bearings.hpp"
 
 namespace azimuth {

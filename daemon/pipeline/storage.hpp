@@ -6,7 +6,6 @@
 
 #include "daemon/publish/status.hpp"
 #include "slam/estimator/estimate.hpp"
-#include "slam/estimator/past_pose.hpp"
 #include "slam/sample/bearings.hpp"
 
 namespace azimuth {

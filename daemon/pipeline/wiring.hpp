@@ -18,7 +18,7 @@
 #include "daemon/publish/status.hpp"
 #include "slam/estimator/estimate.hpp"
 #include "slam/sample/map_snapshot.hpp"
-#include "slam/sample/odometry_since.hpp"
+#include "slam/sample/odometry.hpp"
 
 namespace azimuth {
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "slam/sample/expected_bearing.hpp"
+#include "slam/sample/bearings.hpp"
 #include "slam/sample/stamp.hpp"
 
 namespace azimuth {

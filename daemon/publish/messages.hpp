@@ -13,7 +13,6 @@
 
 #include "daemon/publish/status.hpp"
 #include "slam/estimator/estimate.hpp"
-#include "slam/estimator/past_pose.hpp"
 
 namespace azimuth {
 

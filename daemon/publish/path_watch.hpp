@@ -2,7 +2,7 @@
 #include <span>
 #include <vector>
 
-#include "slam/estimator/past_pose.hpp"
+#include "slam/estimator/estimate.hpp"
 
 namespace azimuth {
 

@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "slam/estimator/estimate.hpp"
-#include "slam/estimator/past_pose.hpp"
 #include "slam/geometry/pose2.hpp"
 
 namespace azimuth {

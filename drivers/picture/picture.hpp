@@ -13,7 +13,6 @@
 #include "slam/camera/camera_rig.hpp"
 #include "slam/camera/image_mask.hpp"
 #include "slam/sample/bearings.hpp"
-#include "slam/sample/expected_bearing.hpp"
 #include "slam/sample/image.hpp"
 
 namespace azimuth {

@@ -9,7 +9,6 @@
 
 #include "drivers/ros/messages.hpp"
 #include "slam/estimator/estimate.hpp"
-#include "slam/estimator/past_pose.hpp"
 #include "slam/geometry/pose2.hpp"
 
 namespace azimuth::ros {

@@ -40,7 +40,7 @@
 #include "base/bytes.hpp"
 #include "base/file_result.hpp"
 #include "drivers/device/odometer_memory.hpp"
-#include "slam/sample/odometry_since.hpp"
+#include "slam/sample/odometry.hpp"
 
 namespace azimuth {
 

@@ -17,7 +17,6 @@
 #include "slam/sample/bearings.hpp"
 #include "slam/sample/image.hpp"
 #include "slam/sample/odometry.hpp"
-#include "slam/sample/odometry_since.hpp"
 #include "slam/sample/stamp.hpp"
 
 namespace azimuth {

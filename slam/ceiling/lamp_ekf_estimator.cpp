@@ -5,7 +5,7 @@
 
 #include "slam/camera/make_camera.hpp"
 #include "slam/ceiling/make_lamp_ekf_estimator.hpp"
-#include "slam/estimator/odometry_floors.hpp"
+#include "slam/estimator/rig_noise.hpp"
 #include "slam/estimator/second_start.hpp"
 #include "slam/geometry/angle.hpp"
 

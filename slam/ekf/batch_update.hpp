@@ -3,7 +3,6 @@
 #include <span>
 #include <vector>
 
-#include "slam/ekf/aligned_vector.hpp"
 #include "slam/ekf/block_triangle.hpp"
 #include "slam/ekf/column_sum.hpp"
 #include "slam/ekf/observation_row.hpp"

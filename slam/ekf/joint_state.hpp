@@ -8,7 +8,6 @@
 
 #include "slam/ekf/batch_update.hpp"
 #include "slam/ekf/block_triangle.hpp"
-#include "slam/ekf/considered.hpp"
 #include "slam/ekf/observation_row.hpp"
 #include "slam/geometry/index.hpp"
 #include "slam/geometry/motion.hpp"
@@ -17,6 +16,19 @@
 #include "slam/sample/map_snapshot.hpp"
 
 namespace azimuth {
+
+// Constants of the rig that a filter considers instead of estimating: true value minus the rig's value.
+namespace considered {
+inline constexpr int scale_distance = 0, scale_turn = 1;  ///< Relative errors of the odometer's scales
+inline constexpr int lag = 2;                             ///< Images are taken this much earlier than stamped [s]
+inline constexpr int drift = 3;                           ///< Heading gained per metre driven [rad/m]
+inline constexpr int yaw = 4;                             ///< The camera is turned this much farther to the left [rad]
+inline constexpr int camera = 5;  ///< Two entries: the camera is this much farther ahead, and to the left [m]
+inline constexpr int kCount = 7;
+}  // namespace considered
+
+/// One number for each constant: its error, variance or standard deviation.
+using Considered = Eigen::Matrix<double, considered::kCount, 1>;
 
 /// Two estimates of one landmark need not agree to the last bit: variance of their difference along each axis.
 inline constexpr double kSamePlace_m2 = 1e-4;

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -100,5 +101,26 @@ struct Estimate {
   AssociationCounts association;
   InputCounts input;
 };
+
+/// The robot's pose at a past instant, by everything that was seen until now.
+struct PastPose {
+  Stamp stamp{};
+  Pose2 T_map_body;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< (x [m], y [m], heading [rad]) in the map frame
+};
+
+/// A past pose without its covariance.
+struct PathPose {
+  Stamp stamp{};
+  Pose2 T_map_body;
+};
+
+/// Writes the ids of an estimate's landmarks, ascending, into `out`, reusing its storage. User output numbers landmarks
+/// by their place in this order, so that a map of two dozen landmarks has no three-digit numbers.
+inline void ids_of(const std::vector<LandmarkEstimate>& landmarks, std::vector<std::int64_t>& out) {
+  out.clear();
+  for (const LandmarkEstimate& landmark : landmarks) out.push_back(landmark.id);
+  std::ranges::sort(out);
+}
 
 }  // namespace azimuth

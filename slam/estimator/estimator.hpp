@@ -6,11 +6,9 @@
 
 #include "slam/ekf/camera_errors.hpp"
 #include "slam/estimator/estimate.hpp"
-#include "slam/estimator/past_pose.hpp"
-#include "slam/estimator/rig_finding.hpp"
+#include "slam/estimator/rig.hpp"
 #include "slam/geometry/motion.hpp"
 #include "slam/sample/bearings.hpp"
-#include "slam/sample/expected_bearing.hpp"
 #include "slam/sample/map_snapshot.hpp"
 
 namespace azimuth {

@@ -1,9 +1,12 @@
 #pragma once
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <span>
 
 #include "slam/estimator/estimate.hpp"
-#include "slam/sample/expected_bearing.hpp"
+#include "slam/geometry/angle.hpp"
+#include "slam/sample/bearings.hpp"
 
 namespace azimuth {
 
@@ -15,6 +18,18 @@ struct Innovations {
 
 /// Compares the accepted azimuths whose landmark has an expected bearing. `expected` must be sorted by landmark id.
 /// Reentrant.
-Innovations innovations_of(std::span<const ExpectedBearing> expected, std::span<const AcceptedSighting> accepted);
+inline Innovations innovations_of(std::span<const ExpectedBearing> expected,
+                                  std::span<const AcceptedSighting> accepted) {
+  Innovations sum;
+  for (const AcceptedSighting& sighting : accepted) {
+    const auto found = std::ranges::lower_bound(expected, sighting.landmark_id, {}, &ExpectedBearing::landmark);
+    if (found == expected.end() || found->landmark != sighting.landmark_id) continue;
+    const double deviation = wrap(sighting.azimuth_rad - found->azimuth_rad) / found->sigma_rad;
+    if (!std::isfinite(deviation)) continue;
+    ++sum.compared;
+    sum.nis += deviation * deviation;
+  }
+  return sum;
+}
 
 }  // namespace azimuth

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "slam/camera/make_camera.hpp"
-#include "slam/estimator/bearing_noise.hpp"
+#include "slam/estimator/rig_noise.hpp"
 #include "slam/geometry/angle.hpp"
 
 namespace azimuth {

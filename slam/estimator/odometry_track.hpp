@@ -7,7 +7,6 @@
 #include "slam/estimator/rig.hpp"
 #include "slam/geometry/motion.hpp"
 #include "slam/sample/odometry.hpp"
-#include "slam/sample/odometry_since.hpp"
 
 namespace azimuth {
 

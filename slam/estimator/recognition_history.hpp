@@ -1,10 +1,34 @@
 #pragma once
 #include <Eigen/Core>
 
-#include "slam/estimator/image_troubles.hpp"
 #include "slam/estimator/judgement.hpp"
+#include "slam/sample/bearings.hpp"
 
 namespace azimuth {
+
+/// Counts consecutive useless images. A frozen image does not count while the robot stands still.
+///
+/// Thread contract: thread-bound.
+class ImageTroubles {
+ public:
+  /// Adds an image, taken after `path_m` of driving.
+  void add(ImageTrouble trouble, double path_m) {
+    const bool moved = path_m > last_image_m_;
+    last_image_m_ = path_m;
+    last_ = trouble;
+    if (trouble == ImageTrouble::none)
+      in_row_ = 0;
+    else if (trouble != ImageTrouble::frozen || moved)
+      ++in_row_;
+  }
+  int in_row() const { return in_row_; }
+  ImageTrouble last() const { return last_; }
+
+ private:
+  int in_row_ = 0;
+  ImageTrouble last_ = ImageTrouble::none;
+  double last_image_m_ = 0.0;
+};
 
 /// How well bearings agree with a filter's map: the distance driven since a landmark was last recognised, and the
 /// number of contradictions since then. Health is judged by these numbers.

@@ -3,9 +3,7 @@
 #include <string_view>
 
 #include "slam/estimator/odometry_watch.hpp"
-#include "slam/estimator/recent.hpp"
 #include "slam/estimator/rig.hpp"
-#include "slam/estimator/rig_finding.hpp"
 #include "slam/sample/bearings.hpp"
 #include "slam/sample/odometry.hpp"
 

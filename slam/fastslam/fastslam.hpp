@@ -10,8 +10,8 @@
 #include "slam/fastslam/lamp_associator.hpp"
 #include "slam/fastslam/lamp_likelihood.hpp"
 #include "slam/fastslam/lamp_recognition.hpp"
+#include "slam/fastslam/lamp_update.hpp"
 #include "slam/fastslam/particles.hpp"
-#include "slam/fastslam/pose_proposal.hpp"
 #include "slam/geometry/motion.hpp"
 #include "slam/geometry/random.hpp"
 #include "slam/sample/map_snapshot.hpp"
@@ -79,6 +79,10 @@ class FastSlam {
   void ask_which_are_near(const ParticleStep& step);
   void miss_landmarks(ParticleStep& step);
   void finish();
+  void follow_proposal(const ParticleStep& step, const Symmetric3& proposal);
+  void follow_pose();
+  void follow_new(const LampCandidate& candidate, const Eigen::Vector3d& p_map);
+  void follow_best();
 
   // fastslam_candidates.cpp
   void observe_candidates(ParticleStep& step, LampAssociator& associator);
@@ -90,12 +94,6 @@ class FastSlam {
   bool make_landmark(ParticleStep& step, const LampCandidate& candidate);
   void add_candidate(const ParticleStep& step, std::size_t sighting);
   CrossingRules rules() const;
-
-  // fastslam_errors.cpp
-  void follow_proposal(const ParticleStep& step, const Symmetric3& proposal);
-  void follow_pose();
-  void follow_new(const LampCandidate& candidate, const Eigen::Vector3d& p_map);
-  void follow_best();
 
   const LampSighting& sighting(const SightingIndex& index) const;
 

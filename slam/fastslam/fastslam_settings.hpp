@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "slam/fastslam/lamps_in_view.hpp"
+#include "slam/geometry/angle.hpp"
 
 namespace azimuth {
 
@@ -99,9 +100,25 @@ struct FastSlamSettings {
 
 /// The values printed in the paper, with a parallax of 1.22 rad (mathematics II.8). The lower bound on a detection's
 /// noise is not in the paper; without it, lamps in rendered images, which claim hundredths of a pixel, make no map.
-FastSlamSettings paper_fastslam_preset();
+inline FastSlamSettings paper_fastslam_preset() {
+  FastSlamSettings settings;
+  settings.association.likelihood = LampLikelihood::paper;
+  settings.association.cost = LampCost::probability;
+  settings.relinearise = true;
+  settings.weight.method = ParticleWeight::product;
+  settings.refute_landmarks = false;
+  settings.weight.resample_below_share = 1.0;
+  settings.candidates.min_parallax_rad = 1.22;
+  settings.new_lamp.covariance = NewLampCovariance::fixed;
+  settings.key_distance_m = 0.0;
+  return settings;
+}
 /// The printed values with the parallax of 7 degrees that the paper names beside 1.22 rad. This preset makes no usable
 /// map.
-FastSlamSettings paper_7deg_fastslam_preset();
+inline FastSlamSettings paper_7deg_fastslam_preset() {
+  FastSlamSettings settings = paper_fastslam_preset();
+  settings.candidates.min_parallax_rad = degrees_to_rad(7.0);
+  return settings;
+}
 
 }  // namespace azimuth

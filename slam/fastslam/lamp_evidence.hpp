@@ -1,6 +1,8 @@
 #pragma once
 // Evidence that a landmark is a lamp and not a chance pattern of reflections.
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -13,12 +15,16 @@ class Reflections {
  public:
   Reflections() = default;
   /// `count` reflections within `max_zenith_rad` of the zenith.
-  Reflections(std::size_t count, double max_zenith_rad);
+  Reflections(std::size_t count, double max_zenith_rad)
+      : log_per_sr_(std::log(static_cast<double>(count) / (2.0 * kPi * (1.0 - std::cos(max_zenith_rad))))) {}
 
   /// ln of the expected number per steradian.
   double log_per_sr() const { return log_per_sr_; }
   /// ln of the expected number per unit of azimuth and zenith at the direction of `seen`.
-  double log_density(const LampSighting& seen) const;
+  double log_density(const LampSighting& seen) const {
+    constexpr double kNearZenith = 0.01;
+    return log_per_sr_ + std::log(std::max(seen.sin_zenith(), kNearZenith));
+  }
 
  private:
   double log_per_sr_ = 0.0;

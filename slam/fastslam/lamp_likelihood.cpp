@@ -1,6 +1,6 @@
 #include "slam/fastslam/lamp_likelihood.hpp"
 
-#include "slam/fastslam/pose_proposal.hpp"
+#include "slam/fastslam/lamp_update.hpp"
 
 namespace azimuth {
 

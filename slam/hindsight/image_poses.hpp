@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "slam/estimator/past_pose.hpp"
+#include "slam/estimator/estimate.hpp"
 #include "slam/hindsight/mapper.hpp"
 
 namespace azimuth {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "slam/estimator/map_fitness.hpp"
+#include "slam/estimator/start_from_map.hpp"
 #include "slam/geometry/wrong_rig.hpp"
 #include "slam/hindsight/late_mapper.hpp"
 #include "slam/hindsight/named_mapper.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "slam/estimator/odometry_floors.hpp"
+#include "slam/estimator/rig_noise.hpp"
 #include "slam/geometry/index.hpp"
 
 namespace azimuth {

@@ -8,9 +8,9 @@
 
 #include "slam/estimator/estimator.hpp"
 #include "slam/estimator/health_settings.hpp"
-#include "slam/estimator/map_start_decision.hpp"
 #include "slam/estimator/recognition_history.hpp"
 #include "slam/estimator/rig.hpp"
+#include "slam/estimator/start_from_map.hpp"
 #include "slam/hindsight/image_poses.hpp"
 #include "slam/hindsight/landmark_covariances.hpp"
 #include "slam/hindsight/mapper.hpp"

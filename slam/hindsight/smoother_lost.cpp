@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "slam/ekf/resection.hpp"
-#include "slam/estimator/bearing_noise.hpp"
+#include "slam/estimator/rig_noise.hpp"
 #include "slam/geometry/index.hpp"
 #include "slam/hindsight/smoother_estimator.hpp"
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "slam/camera/make_camera.hpp"
-#include "slam/estimator/odometry_floors.hpp"
+#include "slam/estimator/rig_noise.hpp"
 
 namespace azimuth {
 namespace {

@@ -56,7 +56,7 @@ class EkfEstimator final : public EkfOnMap<BearingEkf, PlanarMap> {
   EkfEstimator(const Rig& rig, const EkfSettings& settings, const std::optional<Restart>& again,
                const HealthSettings& health, const RelocalisationSettings& relocalisation);
 
-  // Start (ekf_start.cpp).
+  // Start from a saved map.
   bool is_searchable(std::span<const MapLandmark> landmarks) const;
   bool is_worth_starting_from(const MapStart& start) const;
   void start_from(const MapStart& start);

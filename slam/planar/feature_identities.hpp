@@ -1,14 +1,40 @@
 #pragma once
+#include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "slam/association/descriptor_store.hpp"
-#include "slam/planar/identity_beliefs.hpp"
-#include "slam/planar/identity_settings.hpp"
+#include "slam/geometry/pose2.hpp"
+#include "slam/planar/ekf_settings.hpp"
 #include "slam/sample/bearings.hpp"
 
 namespace azimuth {
+
+/// The filter's belief of its landmarks, as plain values for assigning identities to features.
+struct IdentityBeliefs {
+  /// A landmark in the state and its expected azimuth; NaN: it cannot be seen from here.
+  struct Mapped {
+    Identity identity = kUnknownIdentity;
+    double azimuth_rad = std::numeric_limits<double>::quiet_NaN();  ///< in the camera's frame
+    /// Variance H P H^T of the azimuth, without a bearing's noise
+    double variance_rad2 = std::numeric_limits<double>::quiet_NaN();
+  };
+  /// An earlier bearing of a landmark that is not in the state yet.
+  struct Sighted {
+    Identity identity;
+    Eigen::Vector2d p_map_camera_m;  ///< The place from which the bearing was taken
+    double direction_rad;            ///< Direction of the bearing in the map frame
+    double variance_rad2;            ///< Noise of the bearing
+    double variance_turn_rad2;       ///< Variance of the robot's change of heading since the bearing
+  };
+
+  Pose2 T_map_camera;            ///< Present pose of the camera
+  bool anywhere = false;         ///< The pose is a guess: only descriptors decide
+  std::vector<Mapped> mapped;    ///< Sorted by identity
+  std::vector<Sighted> sighted;  ///< Sorted by identity
+};
 
 /// Assigns identities to features by their descriptors (mathematics I.12): decides which features of an image show
 /// landmarks seen before, and which are new.

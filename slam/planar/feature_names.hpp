@@ -2,6 +2,7 @@
 #include <span>
 
 #include "slam/estimator/rig.hpp"
+#include "slam/planar/candidates.hpp"
 #include "slam/planar/ekf_settings.hpp"
 #include "slam/planar/feature_identities.hpp"
 #include "slam/planar/planar_view.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "slam/estimator/bearing_noise.hpp"
+#include "slam/estimator/rig_noise.hpp"
 #include "slam/geometry/index.hpp"
 
 namespace azimuth {

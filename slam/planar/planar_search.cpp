@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "slam/estimator/bearing_noise.hpp"
+#include "slam/estimator/rig_noise.hpp"
 #include "slam/lost/lost_robot.hpp"
 #include "slam/planar/ekf_choices.hpp"
 

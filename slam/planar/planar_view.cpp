@@ -1,6 +1,6 @@
 #include "slam/planar/planar_view.hpp"
 
-#include "slam/estimator/bearing_noise.hpp"
+#include "slam/estimator/rig_noise.hpp"
 #include "slam/geometry/angle.hpp"
 
 namespace azimuth {

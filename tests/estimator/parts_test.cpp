@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "slam/estimator/landmark_book.hpp"
-#include "slam/estimator/map_start_decision.hpp"
 #include "slam/estimator/recognition_history.hpp"
+#include "slam/estimator/start_from_map.hpp"
 #include "slam/lost/lost_robot.hpp"
 
 namespace azimuth {

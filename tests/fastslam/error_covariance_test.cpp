@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "slam/fastslam/lamp_update.hpp"
-#include "slam/fastslam/pose_proposal.hpp"
 #include "slam/fastslam/ray_fit.hpp"
 #include "tests/geometry/random_draws.hpp"
 

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 #include <numeric>
 
-#include "slam/fastslam/resampling.hpp"
 #include "slam/geometry/random.hpp"
 
 namespace azimuth {

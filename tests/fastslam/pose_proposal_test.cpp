@@ -1,9 +1,8 @@
-#include "slam/fastslam/pose_proposal.hpp"
-
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include "slam/fastslam/lamp_update.hpp"
 #include "tests/geometry/random_draws.hpp"
 
 namespace azimuth {

@@ -4,8 +4,6 @@
 #include "slam/fastslam/lamp_likelihood.hpp"
 #include "slam/fastslam/lamp_update.hpp"
 #include "slam/fastslam/particles.hpp"
-#include "slam/fastslam/pose_proposal.hpp"
-#include "slam/fastslam/resampling.hpp"
 #include "slam/particles/lamp_association.hpp"
 #include "tests/golden/checks.hpp"
 

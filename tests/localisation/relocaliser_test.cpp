@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "slam/localisation/motion_chain.hpp"
-#include "slam/localisation/pose_from_directions.hpp"
+#include "slam/localisation/pose_search.hpp"
 #include "tests/localisation/kidnapping.hpp"
 
 namespace azimuth {

@@ -6,7 +6,6 @@
 #include "slam/ekf/joint_state.hpp"
 #include "slam/estimator/map_start.hpp"
 #include "slam/planar/ekf_settings.hpp"
-#include "slam/planar/identity_settings.hpp"
 #include "slam/sample/image.hpp"
 
 namespace azimuth {

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "slam/estimator/estimate.hpp"
-#include "slam/estimator/past_pose.hpp"
 #include "slam/geometry/pose2.hpp"
 #include "slam/sample/stamp.hpp"
 

@@ -8,7 +8,7 @@
 #include "drivers/picture/picture.hpp"
 #include "drivers/storage/run.hpp"
 #include "slam/estimator/estimator.hpp"
-#include "slam/sample/expected_bearing.hpp"
+#include "slam/sample/bearings.hpp"
 
 namespace azimuth {
 

@@ -14,7 +14,6 @@
 #include "slam/estimator/estimate.hpp"
 #include "slam/estimator/estimator.hpp"
 #include "slam/estimator/estimator_stage.hpp"
-#include "slam/estimator/past_pose.hpp"
 #include "slam/estimator/rig.hpp"
 #include "tools/evaluate/report.hpp"
 #include "tools/evaluate/sighting_error.hpp"

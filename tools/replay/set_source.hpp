@@ -8,7 +8,6 @@
 
 #include "drivers/camera/run_images.hpp"
 #include "drivers/storage/run.hpp"
-#include "slam/perception/image_stage.hpp"
 #include "slam/perception/make_perception.hpp"
 #include "slam/perception/perception.hpp"
 #include "slam/sample/bearings.hpp"

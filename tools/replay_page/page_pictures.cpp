@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "slam/camera/camera_rig.hpp"
-#include "slam/estimator/landmark_ids.hpp"
+#include "slam/estimator/estimate.hpp"
 
 namespace azimuth {
 namespace {

@@ -10,7 +10,7 @@
 #include "drivers/storage/run.hpp"
 #include "slam/estimator/estimate.hpp"
 #include "slam/estimator/estimator.hpp"
-#include "slam/sample/expected_bearing.hpp"
+#include "slam/sample/bearings.hpp"
 
 namespace azimuth {
 

@@ -5,7 +5,6 @@
 #include "slam/estimator/estimate.hpp"
 #include "slam/estimator/estimator.hpp"
 #include "slam/sample/bearings.hpp"
-#include "slam/sample/expected_bearing.hpp"
 
 namespace azimuth {
 

@@ -6,9 +6,8 @@
 
 #include "slam/geometry/index.hpp"
 #include "slam/geometry/same_everywhere.hpp"
-#include "slam/perception/calibration/circle_fit.hpp"
+#include "slam/perception/calibration/edge_circles.hpp"
 #include "slam/perception/calibration/edge_map.hpp"
-#include "slam/perception/calibration/ring_profile.hpp"
 #include "slam/perception/image/gray.hpp"
 
 namespace azimuth {

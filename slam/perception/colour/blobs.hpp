@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "slam/perception/colour/colour_run.hpp"
+#include "slam/perception/colour/scan.hpp"
 
 namespace azimuth {
 

@@ -11,10 +11,10 @@
 #include "slam/geometry/index.hpp"
 #include "slam/perception/colour/blobs.hpp"
 #include "slam/perception/colour/class_table.hpp"
-#include "slam/perception/colour/colour_run.hpp"
 #include "slam/perception/colour/colour_settings.hpp"
 #include "slam/perception/colour/outline.hpp"
 #include "slam/perception/colour/radial_sides.hpp"
+#include "slam/perception/colour/scan.hpp"
 #include "slam/perception/perception.hpp"
 
 namespace azimuth {

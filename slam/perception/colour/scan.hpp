@@ -3,10 +3,25 @@
 #include <cstdint>
 #include <span>
 
-#include "slam/perception/colour/colour_run.hpp"
 #include "slam/sample/image.hpp"
 
 namespace azimuth {
+
+/// Consecutive samples of one row that have the same class.
+struct ColourRun {
+  std::uint16_t row = 0;
+  std::uint16_t begin = 0, end = 0;  ///< Columns; `end` is one past the last.
+  std::uint8_t class_number = 0;     ///< From 1
+
+  int length() const { return end - begin; }
+  friend bool operator==(const ColourRun&, const ColourRun&) = default;
+};
+
+/// Consecutive samples of one row that show the world.
+struct VisibleSpan {
+  std::uint16_t row = 0;
+  std::uint16_t begin = 0, end = 0;
+};
 
 /// An image and the colour table for it.
 struct Scan {

@@ -7,9 +7,18 @@
 
 #include "slam/camera/image_axes.hpp"
 #include "slam/perception/lamps/bright_runs.hpp"
-#include "slam/perception/lamps/gray_view.hpp"
 
 namespace azimuth {
+
+/// A grey image, not owned.
+struct GrayView {
+  const std::uint8_t* pixels = nullptr;
+  std::ptrdiff_t stride = 0;  ///< Bytes from one row to the next
+  int width_px = 0;
+  int height_px = 0;
+
+  const std::uint8_t* row(int v) const { return pixels + v * stride; }
+};
 
 /// A connected set of pixels (8-neighbourhood), each weighted by its excess over the threshold. Because of the weights,
 /// pixels at the outline that noise adds or removes hardly move the centroid.

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "slam/perception/image/visible_region.hpp"
-#include "slam/perception/sift/key_point.hpp"
+#include "slam/perception/sift/feature_finder.hpp"
 #include "slam/perception/sift/scale_space.hpp"
 #include "slam/perception/sift/sift_settings.hpp"
 

@@ -3,7 +3,6 @@
 
 #include "slam/perception/sift/extrema.hpp"
 #include "slam/perception/sift/feature_finder.hpp"
-#include "slam/perception/sift/key_point.hpp"
 #include "slam/perception/sift/scale_space.hpp"
 #include "slam/sample/bearings.hpp"
 

@@ -10,7 +10,6 @@
 #include "slam/perception/image/working_image.hpp"
 #include "slam/perception/perception.hpp"
 #include "slam/perception/sift/feature_finder.hpp"
-#include "slam/perception/sift/key_point.hpp"
 #include "slam/perception/sift/sift_settings.hpp"
 #include "slam/sample/bearings.hpp"
 

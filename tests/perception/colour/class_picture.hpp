@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "slam/perception/colour/colour_run.hpp"
+#include "slam/perception/colour/scan.hpp"
 
 namespace azimuth::test {
 

@@ -7,8 +7,8 @@
 #include <functional>
 #include <vector>
 
-#include "slam/perception/lamps/gray_view.hpp"
-#include "slam/perception/lamps/visible_rows.hpp"
+#include "slam/perception/lamps/lamp_blobs.hpp"
+#include "slam/perception/lamps/lamp_finder.hpp"
 
 namespace azimuth::test {
 

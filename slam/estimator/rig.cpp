@@ -1,4 +1,4 @@
-#include "slam/estimator/rig_finding.hpp"
+#include "slam/estimator/rig.hpp"
 
 #include "slam/geometry/angle.hpp"
 

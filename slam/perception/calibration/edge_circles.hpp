@@ -1,5 +1,5 @@
 #pragma once
-// Measures how well edges follow circles about one centre.
+// Circles in an edge map: how well edges follow circles about one centre, and the fit of a circle to them.
 
 #include <vector>
 
@@ -57,5 +57,18 @@ std::size_t rim_reach(double radius, double step);
 /// Mean detail between two circles whose radii are `from` and `to` times the ring's radius. NaN if hardly any of this
 /// area is inside the map.
 double detail_between(const EdgeMap& map, const ImageCircle& ring, double from, double to);
+
+/// A circle fitted to edge points, in pixels of the edge map.
+struct CircleFit {
+  ImageCircle ring;
+  double sigma_centre = 0.0;  ///< Standard deviation of the centre in its worst direction
+  double sigma_radius = 0.0;
+  double seen = 0.0;    ///< Share of the rays inside the map that found the edge on the circle
+  double in_map = 0.0;  ///< Share of the circle that lies inside the map
+};
+
+/// Fits a circle by robust least squares to the strongest edges near `start`, on rays in all directions. The fit is
+/// repeated with a narrowing search window. `seen` is 0 if there is no circle.
+CircleFit fit_circle(const EdgeMap& map, const ImageCircle& start);
 
 }  // namespace azimuth

@@ -1,12 +1,24 @@
 #pragma once
-#include "slam/ekf/considered.hpp"
+// The noise of bearings and motions, and the uncertainty of the rig itself, as the rig gives them. Thread contract:
+// reentrant.
+
+#include <cmath>
+
+#include "slam/camera/camera_rig.hpp"
+#include "slam/ekf/joint_state.hpp"
 #include "slam/estimator/rig.hpp"
 #include "slam/geometry/motion.hpp"
+#include "slam/sample/bearings.hpp"
 
 namespace azimuth {
 
+/// The standard deviation of one bearing: the one that the bearing carries, or the rig's if it carries none.
+inline double sigma_rad(const Bearing& bearing, const CameraRig& rig) {
+  return std::isnan(bearing.sigma_rad) ? rig.sigma_bearing_rad : bearing.sigma_rad;
+}
+
 /// The motion with the rig's minimum noise added, which prevents overconfidence: otherwise a straight drive would keep
-/// the heading exactly (mathematics I.3). No noise is added while the robot stands still. Thread contract: reentrant.
+/// the heading exactly (mathematics I.3). No noise is added while the robot stands still.
 inline Motion with_floors(Motion motion, const OdometryRig& rig) {
   if (!motion.moved()) return motion;
   const double distance_m2 = rig.floor_distance_m * rig.floor_distance_m;

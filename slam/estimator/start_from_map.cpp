@@ -1,4 +1,4 @@
-#include "slam/estimator/map_fitness.hpp"
+#include "slam/estimator/start_from_map.hpp"
 
 namespace azimuth {
 
