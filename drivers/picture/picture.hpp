@@ -49,7 +49,7 @@ class Picture {
   void write_captions(const BearingSet& seen, std::size_t expected_seen, std::size_t expected);
   Pixel at(double radius_px, double azimuth_rad) const;
 
-  int width_px_, height_px_;  // Size of a picture without an image
+  int width_px_, height_px_;  // Size of the black image that stands in for an image that is not readable
   ImageAxes axes_;
   MaskShape mask_;
   std::optional<CameraModel> model_;

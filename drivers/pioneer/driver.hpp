@@ -20,15 +20,15 @@
 
 namespace azimuth {
 
-/// Wheel odometry of a Pioneer, for a thread that polls:
+/// Reads the wheel odometry of a Pioneer robot, which is connected by a serial line or by TCP. One thread runs it in a
+/// loop. In each round the thread waits with poll(2) until descriptor() has one of poll_events(), or for due_in() at
+/// most. Then it calls turn(), and after that take() and take_event() until they return false.
 ///
-///   poll descriptor() for poll_events(), for due_in() at most; then turn();
-///   then take() and take_event() until they return false.
-///
-/// The driver only reads: it never moves the robot nor enables its motors. When the robot is unplugged, switched off or
-/// silent, the device is opened again by its path, which may meanwhile lead to another node. The back-off grows with
-/// the time of absence, up to a second. The odometry then continues; it gets a new origin unless the controller has
-/// continued to count. A robot of unknown kind is asked at growing intervals, up to 30 s.
+/// The driver never moves the robot and never enables its motors. When the robot is unplugged, switched off or silent,
+/// the driver opens the device again by its path, which may meanwhile lead to another node. The pauses between attempts
+/// grow with the time of absence, up to a second. The odometry then continues; it gets a new origin unless the
+/// controller has continued to count. If the robot says that it is of a kind that the driver does not know, the driver
+/// asks again after pauses that grow up to 30 s.
 ///
 /// A silent TCP connection is kept beside new attempts, until it is reset or one of them is answered. Some robots never
 /// accept a new connection after the client has closed one, but continue with the client they had.

@@ -9,9 +9,11 @@
 
 namespace azimuth {
 
-/// The gain of one batch update (mathematics I.7) in whitened form: with S = H P H^T + R = L L^T, W = P H^T L^-T and
-/// the whitened innovations are L^-1 nu, so that K nu = W L^-1 nu and K S K^T = W W^T. The caller updates the
-/// covariance, and may add one more pair of columns to the product that is subtracted from it (rank_update.hpp).
+/// Computes the gain K of a Kalman update that uses all measurements of a step at once (mathematics I.7). The gain is
+/// kept in whitened form: the innovations nu have the covariance S = H P H^T + R = L L^T, where L is lower triangular,
+/// and this class holds W = P H^T L^-T and the whitened innovations L^-1 nu. From these the correction of the state is
+/// K nu = W (L^-1 nu), and the covariance P shrinks by K S K^T = W W^T. The caller makes P shrink with subtract_from().
+/// Before that it may append a pair of columns (u, v) to W, for which u v^T + v u^T is subtracted too.
 ///
 /// Thread contract: thread-bound. Nothing allocates unless the state or the batch is larger than any before.
 class BatchUpdate {

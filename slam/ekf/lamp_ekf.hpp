@@ -38,7 +38,8 @@ struct LampBlock {
 /// A measured direction, corrected for the camera's estimated errors.
 struct LampSeen {
   TangentDirection direction;
-  /// d(position of the direction across, along) [rad] / d(CameraErrors).
+  /// The derivative of the direction by the camera's errors, in the order of CameraErrors::mean. Its rows tell how far
+  /// an error moves the direction across and along (the axes of TangentDirection), in radians per pixel or per radian.
   Eigen::Matrix<double, 2, 4> by_camera = Eigen::Matrix<double, 2, 4>::Zero();
 
   /// Covariance of (across, along) [rad^2] due to camera errors of this covariance.

@@ -51,8 +51,9 @@ struct AcceptedSighting {
   std::int64_t landmark_id = 0;
   double azimuth_rad = 0.0;  ///< Azimuth in the camera's frame
   double sigma_rad = 0.0;
-  double radius_px = std::numeric_limits<double>::quiet_NaN();  ///< See Bearing
-  // As in Bearing; NaN: the bearing corrected in the plane only.
+  /// Distance of the bearing from the image's centre; NaN: the bearing is not from an image.
+  double radius_px = std::numeric_limits<double>::quiet_NaN();
+  // The elevation above the horizontal and its standard deviation. They are NaN if the estimator used only the azimuth.
   double elevation_rad = std::numeric_limits<double>::quiet_NaN();
   double sigma_elevation_rad = std::numeric_limits<double>::quiet_NaN();
 };

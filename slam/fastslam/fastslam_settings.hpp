@@ -98,8 +98,10 @@ struct FastSlamSettings {
   friend bool operator==(const FastSlamSettings&, const FastSlamSettings&) = default;
 };
 
-/// The values printed in the paper, with a parallax of 1.22 rad (mathematics II.8). The lower bound on a detection's
-/// noise is not in the paper; without it, lamps in rendered images, which claim hundredths of a pixel, make no map.
+/// The settings that the FastSLAM paper prints ([G] in docs/mathematics.md). Two rays to a lamp must differ in
+/// direction by at least 1.22 rad before their crossing counts (min_parallax_rad): only this value reproduces the
+/// paper's results. The paper has no lower bound on a detection's noise, but this preset keeps sigma_floor_rad. Without
+/// it the filter makes no map from rendered images, whose detections claim to be accurate to hundredths of a pixel.
 inline FastSlamSettings paper_fastslam_preset() {
   FastSlamSettings settings;
   settings.association.likelihood = LampLikelihood::paper;
@@ -113,8 +115,8 @@ inline FastSlamSettings paper_fastslam_preset() {
   settings.key_distance_m = 0.0;
   return settings;
 }
-/// The printed values with the parallax of 7 degrees that the paper names beside 1.22 rad. This preset makes no usable
-/// map.
+/// The same settings, but the least difference in direction is 7 degrees, which the paper names too. With this value
+/// the filter makes no usable map.
 inline FastSlamSettings paper_7deg_fastslam_preset() {
   FastSlamSettings settings = paper_fastslam_preset();
   settings.candidates.min_parallax_rad = degrees_to_rad(7.0);

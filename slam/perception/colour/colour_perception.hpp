@@ -19,7 +19,9 @@
 
 namespace azimuth {
 
-/// The visible part of an image, in samples of `pixels_per_sample` pixels along a side.
+/// Tells which parts of an image show the world; the mask hides the others. The image is divided into samples: squares
+/// of `pixels_per_sample` pixels along each side, each of which gets one colour class (scan.hpp). Rows and columns
+/// count samples.
 ///
 /// Thread contract: reentrant.
 class VisibleArea {
