@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "slam/lost/agreement_watch.hpp"
+#include "slam/lost/lost_robot.hpp"
 
 namespace azimuth {
 void NamesSeen::add(const BearingSet& image, double path_m) {

@@ -7,7 +7,7 @@
 
 #include "slam/estimator/estimate.hpp"
 #include "slam/geometry/index.hpp"
-#include "slam/lost/agreement_watch.hpp"
+#include "slam/lost/lost_robot.hpp"
 
 namespace azimuth {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "slam/estimator/rig.hpp"
 #include "slam/localisation/relocaliser.hpp"
-#include "slam/lost/agreement_watch.hpp"
+#include "slam/lost/lost_robot.hpp"
 #include "slam/lost/seen_again.hpp"
 #include "slam/planar/ekf_settings.hpp"
 #include "slam/planar/planar_landmark.hpp"

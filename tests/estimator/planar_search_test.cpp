@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <vector>
 
-#include "slam/lost/agreement_watch.hpp"
+#include "slam/lost/lost_robot.hpp"
 
 namespace azimuth {
 namespace {

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "slam/lost/agreement_watch.hpp"
+#include "slam/lost/lost_robot.hpp"
 
 namespace azimuth {
 namespace {
