@@ -5,7 +5,7 @@
 #include <string_view>
 #include <type_traits>
 
-#include "base/little_bytes.hpp"
+#include "base/bytes.hpp"
 
 namespace azimuth::ros {
 namespace {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/little_bytes.hpp"
+#include "base/bytes.hpp"
 #include "tools/bag/bag_records.hpp"
 
 namespace azimuth {

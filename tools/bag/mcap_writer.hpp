@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/little_bytes.hpp"
+#include "base/bytes.hpp"
 
 namespace azimuth {
 
