@@ -7,7 +7,7 @@
 #include "base/ring.hpp"
 #include "base/unique_fd.hpp"
 #include "drivers/device/back_off.hpp"
-#include "drivers/device/device_news.hpp"
+#include "drivers/device/connection.hpp"
 #include "slam/sample/odometry.hpp"
 #include "slam/sample/odometry_steps.hpp"
 

@@ -1,5 +1,3 @@
-#include "drivers/iidc/iidc_features.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "drivers/iidc/iidc_setup.hpp"
 #include "drivers/iidc/iidc_setup_work.hpp"
 #include "drivers/iidc/iidc_text.hpp"
 

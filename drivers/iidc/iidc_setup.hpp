@@ -1,6 +1,6 @@
 #pragma once
-// Applies the image settings to a camera before it starts. Internal to drivers/iidc. Thread contract: reentrant, for
-// different cameras.
+// Internal to drivers/iidc: applies the settings of image, exposure, gain and other features to a camera before it
+// starts. Thread contract: reentrant, for different cameras.
 
 #include <optional>
 #include <string>
@@ -10,6 +10,10 @@
 #include "slam/sample/image.hpp"
 
 namespace azimuth::iidc {
+
+/// Sets every feature that the settings name, and reads it back. Each difference becomes a sentence in `refused`; it
+/// never makes the camera unusable. Thread contract: reentrant, for different cameras.
+void set_features(const OpenCamera& camera, const IidcSettings& settings, std::vector<std::string>& refused);
 
 /// The result of applying the settings.
 struct ImageSetup {

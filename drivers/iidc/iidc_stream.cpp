@@ -16,7 +16,6 @@
 #include "base/clocks.hpp"
 #include "drivers/camera/frame.hpp"
 #include "drivers/iidc/iidc_camera.hpp"
-#include "drivers/iidc/iidc_features.hpp"
 #include "drivers/iidc/iidc_setup.hpp"
 #include "drivers/iidc/iidc_stamps.hpp"
 #include "drivers/iidc/iidc_text.hpp"

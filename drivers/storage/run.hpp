@@ -5,8 +5,10 @@
 // A folder is written or exported by a person, so any violation makes it refused, with all violations named. A log is
 // recorded by a robot, so it is used as far as possible, and skipped data are counted.
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -64,9 +66,6 @@ struct Skipped {
   std::uint64_t missing_frame_segments = 0;
   std::uint64_t unrecorded_frames = 0;
 
-  std::uint64_t records_not_in_order() const {
-    return odometry_not_in_order + bearings_not_in_order + truth_not_in_order + frames_not_in_order;
-  }
   /// E.g. "3 odometry readings not in order, 17 damaged bytes"; empty when only outputs were skipped.
   std::string text() const;
   friend bool operator==(const Skipped&, const Skipped&) = default;
@@ -141,5 +140,12 @@ FileErrors replace_truth(Run& run, const std::filesystem::path& truth_file,
 /// well. Refuses PNG images, for which messages have no format.
 [[nodiscard]] FileResult<void> write_run_log(const Run& run, const std::filesystem::path& file,
                                              const LogOptions& options = {});
+
+/// Called after each written record. An exception from it ends the writing, and leaves a part of the file.
+using WriteProgress = std::function<void(std::size_t done, std::size_t all)>;
+
+/// The same, for runs that take long.
+[[nodiscard]] FileResult<void> write_run_log(const Run& run, const std::filesystem::path& file,
+                                             const LogOptions& options, const WriteProgress& progress);
 
 }  // namespace azimuth

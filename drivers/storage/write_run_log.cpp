@@ -1,10 +1,9 @@
-#include "drivers/storage/write_run_log.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "drivers/storage/event_log.hpp"
 #include "drivers/storage/frame_reader.hpp"
+#include "drivers/storage/run.hpp"
 #include "drivers/storage/run_folder.hpp"
 #include "drivers/storage/tables.hpp"
 #include "drivers/wire/channels.hpp"

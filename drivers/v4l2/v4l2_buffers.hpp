@@ -1,8 +1,7 @@
 #pragma once
 // Internal to drivers/v4l2: the image buffers of the kernel's driver.
 
-#include <array>
-#include <memory>
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -31,7 +30,14 @@ class Buffers final : public FramePool {
 /// A v4l2_buffer for either kind of capture. With planes, the numbers are in its single plane.
 class BufferCall {
  public:
-  explicit BufferCall(std::uint32_t buffer_type, std::uint32_t index = 0);
+  explicit BufferCall(std::uint32_t buffer_type, std::uint32_t index = 0) {
+    buffer_.type = buffer_type;
+    buffer_.memory = V4L2_MEMORY_MMAP;
+    buffer_.index = index;
+    if (!has_planes()) return;
+    buffer_.m.planes = &plane_;
+    buffer_.length = 1;
+  }
   BufferCall(const BufferCall&) = delete;
   BufferCall& operator=(const BufferCall&) = delete;
 
@@ -54,6 +60,10 @@ class BufferCall {
 };
 
 /// The kernel's time of a frame, limited to the range of a stamp.
-Stamp to_stamp(const timeval& time);
+inline Stamp to_stamp(const timeval& time) {
+  constexpr std::int64_t kLast_s = 1'000'000'000'000;  // beyond this, microseconds overflow
+  const std::int64_t seconds = std::clamp<std::int64_t>(time.tv_sec, 0, kLast_s);
+  return stamp_from_us(seconds * 1'000'000 + std::clamp<std::int64_t>(time.tv_usec, 0, 999'999));
+}
 
 }  // namespace azimuth::v4l2

@@ -1,7 +1,7 @@
-#include "drivers/v4l2/v4l2_controls.hpp"
-
 #include <initializer_list>
 #include <optional>
+
+#include "drivers/v4l2/v4l2_setup.hpp"
 
 namespace azimuth::v4l2 {
 namespace {

@@ -1,10 +1,10 @@
-#include "drivers/v4l2/v4l2_negotiation.hpp"
-
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <optional>
+
+#include "drivers/v4l2/v4l2_setup.hpp"
 
 namespace azimuth::v4l2 {
 namespace {

@@ -10,9 +10,8 @@
 
 #include "drivers/device/device_clock.hpp"
 #include "drivers/v4l2/v4l2_buffers.hpp"
-#include "drivers/v4l2/v4l2_controls.hpp"
 #include "drivers/v4l2/v4l2_finder.hpp"
-#include "drivers/v4l2/v4l2_negotiation.hpp"
+#include "drivers/v4l2/v4l2_setup.hpp"
 
 namespace azimuth {
 namespace v4l2 {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "drivers/can/can_bus.hpp"
+#include "drivers/can/can_driver.hpp"
 #include "drivers/can/can_frame.hpp"
 #include "drivers/can/can_odometer.hpp"
 #include "tests/drivers/can/fake_base.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 #include <filesystem>
 
-#include "drivers/storage/write_run_log.hpp"
+#include "drivers/storage/run.hpp"
 
 namespace azimuth {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/file_result.hpp"
-#include "drivers/storage/write_run_log.hpp"
+#include "drivers/storage/run.hpp"
 #include "slam/sample/stamp.hpp"
 #include "tools/import/foreign_samples.hpp"
 

@@ -1,9 +1,9 @@
-#include "drivers/camera/image_order.hpp"
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 #include <set>
 #include <vector>
+
+#include "drivers/camera/camera_driver.hpp"
 
 namespace azimuth {
 namespace {

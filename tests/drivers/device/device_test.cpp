@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "drivers/device/back_off.hpp"
+#include "drivers/device/connection.hpp"
 #include "drivers/device/device_clock.hpp"
-#include "drivers/device/device_news.hpp"
 
 namespace azimuth {
 namespace {

@@ -1,10 +1,9 @@
-#include "drivers/picture/rim_names.hpp"
-
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <string>
 #include <vector>
 
+#include "drivers/picture/picture.hpp"
 #include "slam/geometry/angle.hpp"
 
 namespace azimuth {

@@ -5,9 +5,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "drivers/pioneer/config_packet.hpp"
-#include "drivers/pioneer/message.hpp"
 #include "drivers/pioneer/motion_packets.hpp"
-#include "drivers/pioneer/standard_sip.hpp"
 #include "tests/drivers/pioneer/stream.hpp"
 
 namespace azimuth::pioneer {

@@ -9,7 +9,6 @@
 #include "drivers/pioneer/motion_packets.hpp"
 #include "drivers/pioneer/packet.hpp"
 #include "drivers/pioneer/protocol.hpp"
-#include "drivers/pioneer/standard_sip.hpp"
 #include "tests/drivers/pioneer/stream.hpp"
 
 namespace azimuth::pioneer::test {
