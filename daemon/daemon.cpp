@@ -22,9 +22,9 @@
 #include "daemon/supervise/supervisor.hpp"
 #include "drivers/storage/session.hpp"
 #include "settings/configuration.hpp"
-#include "settings/reference.hpp"
 #include "settings/rig.hpp"
 #include "settings/sample_sentence.hpp"
+#include "settings/toml_writing.hpp"
 
 namespace azimuth {
 namespace {

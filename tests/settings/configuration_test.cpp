@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 
 #include "settings/configured_estimator.hpp"
-#include "settings/reference.hpp"
 #include "settings/rig.hpp"
+#include "settings/toml_writing.hpp"
 #include "tests/settings/member_count.hpp"
 
 namespace azimuth {

@@ -1,4 +1,3 @@
-#include "settings/refining_estimator.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "base/visible.hpp"
-#include "settings/refining_estimator.hpp"
+#include "settings/configured_estimator.hpp"
 #include "tools/azimuth/command.hpp"
 #include "tools/azimuth/replay_outputs.hpp"
 #include "tools/azimuth/replay_run.hpp"

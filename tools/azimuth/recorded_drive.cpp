@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "settings/configured_estimator.hpp"
-#include "settings/refining_estimator.hpp"
 #include "settings/rig.hpp"
 #include "settings/sample_sentence.hpp"
 #include "tools/azimuth/output_path.hpp"
