@@ -2,9 +2,8 @@
 
 #include <stdexcept>
 
-#include "sim/renderer/rig_camera.hpp"
 #include "sim/renderer/standard_cameras.hpp"
-#include "sim/world/rig_toml.hpp"
+#include "sim/world/run_of.hpp"
 
 namespace azimuth::sim {
 namespace {

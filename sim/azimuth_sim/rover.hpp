@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "sim/pioneer/chassis.hpp"
+#include "sim/pioneer/simulated_pioneer.hpp"
 #include "sim/world/random.hpp"
 #include "sim/world/scenario.hpp"
 

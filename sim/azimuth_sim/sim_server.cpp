@@ -10,8 +10,6 @@
 #include <utility>
 
 #include "base/clocks.hpp"
-#include "sim/pioneer/pty_carrier.hpp"
-#include "sim/pioneer/tcp_carrier.hpp"
 
 namespace azimuth::sim {
 namespace {

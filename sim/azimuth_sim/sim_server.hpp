@@ -15,7 +15,7 @@
 #include "sim/azimuth_sim/options.hpp"
 #include "sim/azimuth_sim/paced_clock.hpp"
 #include "sim/azimuth_sim/run_files.hpp"
-#include "sim/pioneer/carrier.hpp"
+#include "sim/pioneer/carriers.hpp"
 
 namespace azimuth::sim {
 

@@ -7,11 +7,10 @@
 
 #include "drivers/pioneer/packet.hpp"
 #include "drivers/pioneer/protocol.hpp"
-#include "sim/pioneer/gyro.hpp"
 #include "sim/pioneer/model.hpp"
 #include "sim/pioneer/motors.hpp"
 #include "sim/pioneer/packets.hpp"
-#include "sim/pioneer/sonar.hpp"
+#include "sim/pioneer/sensors.hpp"
 #include "sim/pioneer/wheel_counter.hpp"
 #include "sim/world/random.hpp"
 #include "slam/sample/stamp.hpp"

@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "sim/renderer/render_scene.hpp"
 #include "sim/renderer/room_pass.hpp"
 #include "slam/camera/camera_model.hpp"
+#include "slam/camera/camera_rig.hpp"
 #include "slam/camera/image_mask.hpp"
 #include "slam/geometry/pose2.hpp"
 
@@ -81,5 +83,9 @@ class Renderer {
   std::size_t rays_painted_ = 0;
   int rows_read_ = 0;
 };
+
+/// The camera that rig.toml describes: model, mask, height and yaw. Returns nullopt, and the reason in `problem`, if
+/// the rig describes no image camera or its parameters are not valid.
+std::optional<RenderCamera> render_camera_of(const CameraRig& rig, std::string& problem);
 
 }  // namespace azimuth

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/renderer/procedural.hpp"
-
 namespace azimuth {
 namespace {
 

@@ -1,6 +1,6 @@
 #pragma once
+#include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -61,5 +61,16 @@ class Texture {
   float side_m_ = 1.0F;
   float texels_per_m_ = 1.0F;
 };
+
+// Procedural textures: the same seed gives the same texels.
+
+/// Square tiles of 0.5 m with grain and stains.
+Texture floor_texture(std::uint64_t seed);
+
+/// A painted wall: nearly uniform, with faint blotches.
+Texture plaster_texture(std::uint64_t seed);
+
+/// A printed poster: strong edges and corners of all sizes, different for each seed, inside a uniform border.
+Texture poster_texture(std::uint64_t seed, double side_m);
 
 }  // namespace azimuth

@@ -8,10 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/world/bearing_sensor.hpp"
 #include "sim/world/driver.hpp"
-#include "sim/world/odometer.hpp"
 #include "sim/world/scene.hpp"
+#include "sim/world/sensors.hpp"
 
 namespace azimuth {
 

@@ -16,7 +16,7 @@
 
 #include "daemon/pipeline/source.hpp"
 #include "drivers/camera/camera_server.hpp"
-#include "sim/renderer/rig_camera.hpp"
+#include "sim/renderer/renderer.hpp"
 #include "sim/renderer/standard_cameras.hpp"
 #include "slam/estimator/rig.hpp"
 #include "tests/bench/latencies.hpp"

@@ -13,7 +13,6 @@
 #include "drivers/storage/run.hpp"
 #include "settings/rig.hpp"
 #include "sim/renderer/renderer.hpp"
-#include "sim/renderer/rig_camera.hpp"
 #include "sim/renderer/standard_cameras.hpp"
 
 namespace azimuth {

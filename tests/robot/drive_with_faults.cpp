@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "sim/world/bearing_sensor.hpp"
+#include "sim/world/sensors.hpp"
 #include "tests/support/simulated_drive.hpp"
 
 namespace azimuth::test {

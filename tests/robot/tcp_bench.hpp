@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "drivers/pioneer/driver.hpp"
+#include "sim/pioneer/carriers.hpp"
 #include "sim/pioneer/simulated_pioneer.hpp"
-#include "sim/pioneer/tcp_carrier.hpp"
 
 namespace azimuth::test {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "sim/pioneer/chassis.hpp"
+#include "sim/pioneer/simulated_pioneer.hpp"
 #include "slam/geometry/pose2.hpp"
 
 namespace azimuth::test {

@@ -1,9 +1,9 @@
-#include "sim/world/bearing_sensor.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <set>
+
+#include "sim/world/sensors.hpp"
 
 namespace azimuth {
 namespace {

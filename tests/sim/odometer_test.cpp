@@ -1,10 +1,9 @@
-#include "sim/world/odometer.hpp"
-
 #include <Eigen/Core>
 #include <cmath>
 #include <gtest/gtest.h>
 
 #include "sim/world/driver.hpp"
+#include "sim/world/sensors.hpp"
 #include "tests/support/printed_name.hpp"
 
 namespace azimuth {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "sim/world/rig_toml.hpp"
+#include "sim/world/run_of.hpp"
 #include "sim/world/simulate.hpp"
 #include "slam/geometry/angle.hpp"
 #include "tools/simulated/simulated_run.hpp"

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "sim/renderer/renderer.hpp"
-#include "sim/renderer/rig_camera.hpp"
 #include "sim/renderer/standard_cameras.hpp"
 #include "slam/camera/make_camera.hpp"
 #include "slam/geometry/angle.hpp"

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "drivers/camera/jpeg.hpp"
-#include "sim/renderer/rig_camera.hpp"
+#include "sim/renderer/renderer.hpp"
 #include "sim/renderer/standard_cameras.hpp"
-#include "sim/world/rig_toml.hpp"
+#include "sim/world/run_of.hpp"
 #include "sim/world/simulate.hpp"
 #include "tools/simulated/simulated_run.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "drivers/pioneer/driver.hpp"
 #include "sim/azimuth_sim/simulation.hpp"
-#include "sim/pioneer/tcp_carrier.hpp"
+#include "sim/pioneer/carriers.hpp"
 
 namespace azimuth::sim {
 namespace {

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <unistd.h>
 
-#include "sim/world/rig_toml.hpp"
+#include "sim/world/run_of.hpp"
 
 namespace azimuth::sim {
 namespace {

@@ -12,8 +12,7 @@
 #include <unistd.h>
 
 #include "base/unique_fd.hpp"
-#include "sim/pioneer/pty_carrier.hpp"
-#include "sim/pioneer/tcp_carrier.hpp"
+#include "sim/pioneer/carriers.hpp"
 
 namespace azimuth::sim {
 namespace {

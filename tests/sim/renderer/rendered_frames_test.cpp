@@ -7,7 +7,7 @@
 #include "drivers/camera/shared_camera.hpp"
 #include "settings/rig.hpp"
 #include "sim/azimuth_sim/camera_link.hpp"
-#include "sim/renderer/rig_camera.hpp"
+#include "sim/renderer/renderer.hpp"
 #include "tests/drivers/camera/link_fixture.hpp"
 
 namespace azimuth::sim {

@@ -1,6 +1,6 @@
-#include "sim/renderer/rig_camera.hpp"
-
 #include <gtest/gtest.h>
+
+#include "sim/renderer/renderer.hpp"
 
 namespace azimuth {
 namespace {

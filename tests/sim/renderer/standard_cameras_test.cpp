@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "settings/rig.hpp"
-#include "sim/renderer/rig_camera.hpp"
+#include "sim/renderer/renderer.hpp"
 
 namespace azimuth {
 namespace {

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/renderer/procedural.hpp"
 #include "sim/renderer/room_pass.hpp"
 
 namespace azimuth {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "settings/rig.hpp"
-#include "sim/world/rig_toml.hpp"
+#include "sim/world/run_of.hpp"
 
 namespace azimuth {
 namespace {
