@@ -4,7 +4,6 @@
 #include <csignal>
 #include <cstdio>
 #include <fmt/format.h>
-#include <memory>
 #include <optional>
 #include <spdlog/spdlog.h>
 #include <utility>
@@ -21,7 +20,6 @@
 #include "daemon/supervise/service_manager.hpp"
 #include "daemon/supervise/supervisor.hpp"
 #include "drivers/storage/session.hpp"
-#include "settings/configuration.hpp"
 #include "settings/rig.hpp"
 #include "settings/sample_sentence.hpp"
 #include "settings/toml_writing.hpp"

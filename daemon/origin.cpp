@@ -6,11 +6,8 @@
 
 #include "base/clocks.hpp"
 #include "daemon/devices/camera_source.hpp"
-#include "daemon/devices/can_source.hpp"
-#include "daemon/devices/fifo_source.hpp"
 #include "daemon/devices/lcm_source.hpp"
-#include "daemon/devices/pioneer_source.hpp"
-#include "daemon/devices/shared_camera_source.hpp"
+#include "daemon/devices/odometer_sources.hpp"
 #include "daemon/pipeline/played_source.hpp"
 #include "drivers/camera/run_images.hpp"
 #include "drivers/device/device_clock.hpp"

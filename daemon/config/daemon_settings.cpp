@@ -4,8 +4,6 @@
 #include <array>
 #include <utility>
 
-#include "daemon/config/can_section.hpp"
-#include "daemon/config/lcm_source_section.hpp"
 #include "drivers/pioneer/device_link.hpp"
 
 namespace azimuth {

@@ -3,8 +3,7 @@
 #include <vector>
 
 #include "base/file_result.hpp"
-#include "daemon/config/camera_sections.hpp"
-#include "daemon/config/iidc_section.hpp"
+#include "daemon/config/device_sections.hpp"
 #include "daemon/keep/map_settings.hpp"
 #include "daemon/pipeline/thread_settings.hpp"
 #include "daemon/publish/publish_settings.hpp"

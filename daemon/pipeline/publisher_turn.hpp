@@ -5,7 +5,6 @@
 #include <string>
 
 #include "daemon/pipeline/doorbell.hpp"
-#include "daemon/pipeline/end_mark.hpp"
 #include "daemon/pipeline/log_wires.hpp"
 #include "daemon/pipeline/source.hpp"
 #include "daemon/pipeline/storage.hpp"
