@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "daemon/devices/shared_camera_source.hpp"
+#include "daemon/devices/camera_source.hpp"
 #include "daemon/pipeline/pipeline.hpp"
 #include "slam/perception/make_perception.hpp"
 #include "slam/planar/make_ekf_estimator.hpp"

@@ -16,7 +16,7 @@
 #include <thread>
 #include <vector>
 
-#include "daemon/devices/shared_camera_source.hpp"
+#include "daemon/devices/camera_source.hpp"
 #include "daemon/pipeline/pipeline.hpp"
 #include "drivers/storage/session.hpp"
 #include "slam/perception/make_perception.hpp"

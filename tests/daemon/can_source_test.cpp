@@ -1,7 +1,5 @@
 // A base on a CAN bus, from the source to the pipeline's wires.
 
-#include "daemon/devices/can_source.hpp"
-
 #include <azimuth/status_t.hpp>
 #include <cerrno>
 #include <gmock/gmock.h>
@@ -9,6 +7,7 @@
 #include <optional>
 #include <thread>
 
+#include "daemon/devices/odometer_sources.hpp"
 #include "tests/drivers/can/fake_base.hpp"
 
 namespace azimuth {

@@ -12,7 +12,7 @@
 #include "drivers/wire/messages.hpp"
 #include "tests/daemon/lcm_logger.hpp"
 #include "tests/daemon/run_files.hpp"
-#include "tools/simulated/rendered_run.hpp"
+#include "tools/simulated/simulated_run.hpp"
 
 namespace azimuth {
 namespace {

@@ -1,10 +1,9 @@
 // Odometry from a FIFO, from the source to the pipeline's wires.
 
-#include "daemon/devices/fifo_source.hpp"
-
 #include <fcntl.h>
 #include <gtest/gtest.h>
 
+#include "daemon/devices/odometer_sources.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace azimuth {

@@ -1,7 +1,5 @@
 // The odometry that is saved for the next start, and what the next start reads from it.
 
-#include "daemon/keep/odometry_keeper.hpp"
-
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>

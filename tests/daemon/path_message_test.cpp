@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "daemon/publish/messages.hpp"
-#include "daemon/publish/path_watch.hpp"
 #include "daemon/publish/publisher.hpp"
 #include "drivers/wire/channels.hpp"
 #include "tests/daemon/quiet.hpp"

@@ -1,9 +1,8 @@
 // The information in a saved map on the robot's pose at the next start.
 
-#include "daemon/saved_map.hpp"
-
 #include <gmock/gmock.h>
 
+#include "daemon/daemon_setup.hpp"
 #include "drivers/storage/map_codec.hpp"
 #include "tests/support/temporary_folder.hpp"
 

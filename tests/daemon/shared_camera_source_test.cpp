@@ -1,10 +1,9 @@
 // The source of a shared camera, connected to a real camera server.
 
-#include "daemon/devices/shared_camera_source.hpp"
-
 #include <functional>
 #include <gmock/gmock.h>
 
+#include "daemon/devices/camera_source.hpp"
 #include "tests/drivers/camera/link_fixture.hpp"
 
 namespace azimuth {

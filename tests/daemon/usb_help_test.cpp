@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "daemon/devices/camera_source.hpp"
-#include "daemon/devices/pioneer_source.hpp"
+#include "daemon/devices/odometer_sources.hpp"
 #include "tests/drivers/camera/fake_stream.hpp"
 #include "tests/drivers/pioneer/scripted_robot.hpp"
 #include "tests/drivers/usb/fake_libusb.hpp"

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <span>
 
-#include "tools/calibrate/read_image.hpp"
+#include "tools/calibrate/image_files.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto image = azimuth::decode_image(std::as_bytes(std::span(data, size)), "image");

@@ -15,7 +15,6 @@
 #include "tests/support/places.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tools/replay/set_source.hpp"
-#include "tools/simulated/rendered_run.hpp"
 #include "tools/simulated/simulated_run.hpp"
 
 namespace azimuth::golden {

@@ -22,7 +22,7 @@
 #include "tools/evaluate/trajectory.hpp"
 #include "tools/replay/replay.hpp"
 #include "tools/replay/set_source.hpp"
-#include "tools/simulated/rendered_run.hpp"
+#include "tools/simulated/simulated_run.hpp"
 
 namespace azimuth {
 namespace {

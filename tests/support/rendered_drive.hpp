@@ -5,7 +5,7 @@
 #include "sim/world/scenario.hpp"
 #include "slam/estimator/rig.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "tools/simulated/rendered_run.hpp"
+#include "tools/simulated/simulated_run.hpp"
 
 namespace azimuth::test {
 

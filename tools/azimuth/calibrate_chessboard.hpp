@@ -9,6 +9,7 @@
 #include "slam/estimator/rig.hpp"
 #include "slam/sample/image.hpp"
 #include "tools/azimuth/recorded_drive.hpp"
+#include "tools/lens_fit/lens.hpp"
 
 namespace azimuth {
 
@@ -26,5 +27,8 @@ struct ChessboardOptions {
 Rig rig_of_fisheye_or_refuse(const std::filesystem::path& file, const FrameFormat& format);
 
 void calibrate_by_chessboard(const ChessboardOptions& options);
+
+/// Prints centre, coefficients, and radii up to `seen_to_rad`. Without `scale_known`, a0 still has its initial value.
+void print_lens(const Lens& lens, const LensCovariance& covariance, double seen_to_rad, bool scale_known);
 
 }  // namespace azimuth

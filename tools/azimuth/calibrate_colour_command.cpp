@@ -10,8 +10,8 @@
 #include "settings/colour_section.hpp"
 #include "settings/configuration.hpp"
 #include "tools/azimuth/command.hpp"
+#include "tools/calibrate/image_files.hpp"
 #include "tools/calibrate/learn_colours.hpp"
-#include "tools/calibrate/read_image.hpp"
 
 namespace azimuth {
 namespace {

@@ -16,11 +16,10 @@
 #include "slam/camera/make_camera.hpp"
 #include "tools/azimuth/calibrate_chessboard.hpp"
 #include "tools/azimuth/command.hpp"
-#include "tools/azimuth/lens_words.hpp"
 #include "tools/azimuth/output_path.hpp"
 #include "tools/azimuth/recorded_drive.hpp"
 #include "tools/lens_fit/fisheye_calibration.hpp"
-#include "tools/lens_fit/lens_picture.hpp"
+#include "tools/lens_fit/residual_picture.hpp"
 
 namespace azimuth {
 namespace {

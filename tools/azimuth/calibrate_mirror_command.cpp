@@ -13,12 +13,10 @@
 #include "tools/azimuth/calibrate_mirror.hpp"
 #include "tools/azimuth/command.hpp"
 #include "tools/azimuth/output_path.hpp"
-#include "tools/calibrate/compare_rig.hpp"
 #include "tools/calibrate/front_end_choice.hpp"
 #include "tools/calibrate/image_files.hpp"
 #include "tools/calibrate/mirror_picture.hpp"
 #include "tools/calibrate/mirror_rig.hpp"
-#include "tools/calibrate/read_image.hpp"
 
 namespace azimuth {
 namespace {

@@ -14,7 +14,7 @@
 #include "tools/azimuth/convert_run.hpp"
 #include "tools/azimuth/exports.hpp"
 #include "tools/azimuth/output_path.hpp"
-#include "tools/export/recorded.hpp"
+#include "tools/export/estimated.hpp"
 
 namespace azimuth {
 namespace {

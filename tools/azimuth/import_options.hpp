@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "drivers/storage/run.hpp"
+#include "tools/azimuth/output_path.hpp"
 #include "tools/azimuth/progress_bar.hpp"
-#include "tools/azimuth/unfinished_run.hpp"
 #include "tools/import/wheel_path.hpp"
 
 namespace azimuth {

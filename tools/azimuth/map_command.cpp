@@ -10,9 +10,7 @@
 #include "tools/azimuth/command.hpp"
 #include "tools/azimuth/replay_outputs.hpp"
 #include "tools/azimuth/replay_run.hpp"
-#include "tools/map_export/map_csv.hpp"
-#include "tools/map_export/map_geojson.hpp"
-#include "tools/map_export/map_summary.hpp"
+#include "tools/map_export/map_texts.hpp"
 
 namespace azimuth {
 namespace {

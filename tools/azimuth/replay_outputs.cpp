@@ -4,7 +4,6 @@
 #include <cctype>
 #include <cstdio>
 #include <fmt/format.h>
-#include <string>
 #include <utility>
 
 #include "drivers/storage/map_file.hpp"
@@ -12,7 +11,6 @@
 #include "settings/sample_sentence.hpp"
 #include "tools/azimuth/command.hpp"
 #include "tools/azimuth/output_path.hpp"
-#include "tools/evaluate/report_json.hpp"
 #include "tools/replay/replay_picture.hpp"
 #include "tools/replay/replay_record.hpp"
 

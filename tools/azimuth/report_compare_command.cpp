@@ -12,7 +12,6 @@
 #include "tools/compare/compare_json.hpp"
 #include "tools/compare/compare_text.hpp"
 #include "tools/compare/comparison.hpp"
-#include "tools/compare/limits.hpp"
 #include "tools/compare/report_files.hpp"
 
 namespace azimuth {

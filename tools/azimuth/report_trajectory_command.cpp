@@ -13,7 +13,7 @@
 
 #include "base/file_result.hpp"
 #include "tools/azimuth/command.hpp"
-#include "tools/evaluate/report_json.hpp"
+#include "tools/evaluate/report.hpp"
 #include "tools/evaluate/trajectory.hpp"
 #include "tools/replay/summary.hpp"
 

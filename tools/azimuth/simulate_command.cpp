@@ -12,7 +12,6 @@
 #include "tools/azimuth/command.hpp"
 #include "tools/azimuth/output_path.hpp"
 #include "tools/azimuth/progress_bar.hpp"
-#include "tools/simulated/rendered_run.hpp"
 #include "tools/simulated/simulated_run.hpp"
 
 namespace azimuth {

@@ -22,7 +22,7 @@
 #include "tools/azimuth/command.hpp"
 #include "tools/azimuth/replay_outputs.hpp"
 #include "tools/azimuth/view_options.hpp"
-#include "tools/replay_page/map_page.hpp"
+#include "tools/replay_page/page_map.hpp"
 #include "tools/replay_page/page_run.hpp"
 #include "tools/view/lcm_intake.hpp"
 

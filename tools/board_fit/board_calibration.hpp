@@ -9,7 +9,7 @@
 #include "base/file_result.hpp"
 #include "slam/estimator/rig.hpp"
 #include "tools/board_fit/board_fit.hpp"
-#include "tools/calibrate/read_image.hpp"
+#include "tools/calibrate/image_files.hpp"
 
 namespace azimuth {
 

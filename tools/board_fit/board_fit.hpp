@@ -8,6 +8,7 @@
 
 #include "tools/board_fit/chessboard.hpp"
 #include "tools/lens_fit/lens.hpp"
+#include "tools/lens_fit/robust_fit.hpp"
 
 namespace azimuth {
 
@@ -30,6 +31,12 @@ struct BoardSolution {
   double rms_px() const;   ///< root mean square of the residuals that fit
   double fitting() const;  ///< share of the corners that fit
 };
+
+/// The equations of the fit, for its test. Corners are whitened by at.sigma_px. Unknowns: the lens parameters, then for
+/// each board its rotation and translation in the camera's frame.
+FitEquations board_equations(const Chessboard& board, const std::vector<BoardSighting>& sightings,
+                             const BoardSolution& at);
+BoardSolution board_moved(BoardSolution from, const Eigen::VectorXd& by);
 
 /// Approximate pose of a board from its corners, by a homography from the board to viewing rays. Nothing if there is
 /// none.

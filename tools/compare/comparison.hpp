@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/file_result.hpp"
 #include "tools/compare/inference.hpp"
 #include "tools/compare/report_files.hpp"
 
@@ -94,5 +95,9 @@ Comparison compare(const Reports& after, const Reports* before, const CompareSet
 
 /// One sentence for each value past its limit; empty if there is none.
 std::vector<std::string> past_limits(const Comparison& comparison, const CompareSettings& settings);
+
+/// Reads the limits of `azimuth report compare --limits FILE` from TOML text; missing values keep their defaults. All
+/// violations are reported; they name `file`.
+FileResult<CompareSettings> read_limits(std::string_view text, const std::string& file);
 
 }  // namespace azimuth

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <sys/stat.h>
 
+#include "tools/doctor/checks.hpp"
+
 namespace azimuth {
 
 namespace fs = std::filesystem;
@@ -88,6 +90,20 @@ std::optional<Process> process_named(const Machine& machine, std::string_view na
     if (process.name == name.substr(0, kLongestName)) return process;
   }
   return std::nullopt;
+}
+
+Finding check_group(const Machine& machine, const std::string& group) {
+  const auto id = group_id(machine, group);
+  const Account& account = machine.account;
+  if (!id) return {"groups", Verdict::unknown, "there is no group " + group + " here", ""};
+  if (account.uid == 0) return {"groups", Verdict::ok, "root needs no group " + group, ""};
+  if (std::ranges::count(account.groups_here, *id) > 0)
+    return {"groups", Verdict::ok, fmt::format("{} is in group {}", account.name, group), ""};
+  const bool stale = std::ranges::count(account.groups, *id) > 0;
+  return {"groups", Verdict::warning,
+          stale ? fmt::format("{} was added to group {} after this session began", account.name, group)
+                : fmt::format("{} is not in group {}", account.name, group),
+          join_group(machine, *id)};
 }
 
 }  // namespace azimuth

@@ -121,4 +121,11 @@ struct Report {
 
 Report evaluate(const ReplayRecord& record);
 
+/// A sentence, with the key to change, if the mean duration of a step exceeds the interval between images, so that a
+/// daemon on this machine would skip images. Empty if the machine is fast enough or if this is unknown.
+std::string why_too_slow(const Report& report);
+
+/// The report as one indented JSON object with a final newline. Values that were not measured are null.
+std::string to_json(const Report& report);
+
 }  // namespace azimuth

@@ -1,7 +1,7 @@
-#include "tools/evaluate/report_json.hpp"
-
 #include <cmath>
 #include <nlohmann/json.hpp>
+
+#include "tools/evaluate/report.hpp"
 
 namespace azimuth {
 namespace {

@@ -32,6 +32,11 @@ struct Estimated {
   std::vector<LandmarkEstimate> landmarks;  ///< the final map
 };
 
+struct RecordedOutputs;
+
+/// The estimates that a daemon published.
+Estimated estimated_of(const RecordedOutputs& outputs, std::string run);
+
 /// The content of a file, or a sentence with the reason why it cannot be made.
 using Exported = tl::expected<std::string, std::string>;
 

@@ -4,11 +4,8 @@
 #include <utility>
 
 #include "drivers/storage/tum.hpp"
-#include "tools/export/bag_export.hpp"
-#include "tools/export/csv_export.hpp"
-#include "tools/export/geojson_export.hpp"
-#include "tools/export/kitti_export.hpp"
-#include "tools/export/mcap_export.hpp"
+#include "tools/export/ros_recording.hpp"
+#include "tools/export/text_exports.hpp"
 
 namespace azimuth {
 namespace {

@@ -1,5 +1,6 @@
 #pragma once
-// Converts estimates to a sequence of ROS messages with topics and times.
+// Converts estimates to a sequence of ROS messages with topics and times, and to the recordings that ROS 1 and ROS 2
+// play.
 
 #include <array>
 #include <functional>
@@ -43,5 +44,13 @@ struct RecordedSpan {
   Stamp first{}, last{};
 };
 RecordedSpan recorded_span(const Estimated& estimated);
+
+/// A ROS 1 bag with the topics kRecordedTopics. `azimuth import` and the tools of ROS read it. Fails if ROS 1 cannot
+/// represent a stamp.
+Exported bag_bytes(const Estimated& estimated);
+
+/// An MCAP file with ROS 2 messages (profile ros2, CDR, schemas ros2msg) on the topics kRecordedTopics. Foxglove shows
+/// it without configuration, and `ros2 bag play` plays it. Fails if ROS 2 cannot represent a stamp.
+Exported mcap_bytes(const Estimated& estimated);
 
 }  // namespace azimuth

@@ -44,7 +44,6 @@ inline constexpr int kScaleTurn = kScaleDistance + 1;   ///< relative error of t
 inline constexpr int kRoll = kScaleTurn + 1;            ///< roll of the camera
 inline constexpr int kPitch = kRoll + 1;
 inline constexpr int kThroughout = kPitch + 1;
-using Throughout = Eigen::Matrix<double, kThroughout, 1>;
 
 struct LensSolution {
   Lens lens;

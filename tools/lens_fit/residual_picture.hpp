@@ -3,6 +3,7 @@
 
 #include "slam/sample/image.hpp"
 #include "tools/lens_fit/lens.hpp"
+#include "tools/lens_fit/lens_fit.hpp"
 #include "tools/plot/canvas.hpp"
 
 namespace azimuth {
@@ -19,5 +20,8 @@ struct Residual {
 /// enlarged residuals. `rms_px`: the root mean square for the caption.
 PlotCanvas residual_picture(const ImageView& image, const Lens& lens, const std::vector<Residual>& residuals,
                             double rms_px);
+
+/// residual_picture() of all lamp observations of a drive, drawn on one of its images.
+PlotCanvas lens_picture(const ImageView& image, const LensDrive& drive, const LensSolution& solution);
 
 }  // namespace azimuth

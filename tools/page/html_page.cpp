@@ -7,7 +7,6 @@
 #include <set>
 #include <vector>
 
-#include "tools/page/base64.hpp"
 #include "tools/page/page_files.hpp"
 
 namespace azimuth {
@@ -123,6 +122,12 @@ std::array<std::byte, 32> sha256(std::string_view text) {
   gsize size = digest.size();
   g_checksum_get_digest(checksum.get(), reinterpret_cast<guint8*>(digest.data()), &size);
   return digest;
+}
+
+std::string base64(std::span<const std::byte> bytes) {
+  const std::unique_ptr<gchar, decltype(&g_free)> text(
+      g_base64_encode(reinterpret_cast<const guchar*>(bytes.data()), bytes.size()), &g_free);
+  return text.get();
 }
 
 }  // namespace azimuth

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -23,5 +24,8 @@ std::string joined_modules(std::string_view module = "report.js");
 
 /// SHA-256 (FIPS 180-4), by which a Content-Security-Policy identifies a script. Reentrant.
 std::array<std::byte, 32> sha256(std::string_view text);
+
+/// Base64 encoding of RFC 4648 with padding. Reentrant.
+std::string base64(std::span<const std::byte> bytes);
 
 }  // namespace azimuth

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "slam/estimator/estimate_digest.hpp"
-#include "tools/replay/stop_watch.hpp"
 
 namespace azimuth {
 namespace {

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "slam/camera/make_camera.hpp"
-#include "tools/replay/stop_watch.hpp"
 
 namespace azimuth {
 

@@ -1,6 +1,7 @@
 #pragma once
 // Sources of bearing sets for a replay: recorded sets, or images processed by a front end.
 
+#include <chrono>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -13,6 +14,17 @@
 #include "slam/sample/bearings.hpp"
 
 namespace azimuth {
+
+/// Measures the time since its construction.
+class StopWatch {
+ public:
+  double elapsed_us() const {
+    return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
 
 /// The bearing sets of a run, in the order of their stamps. Thread contract: thread-bound.
 class SetSource {

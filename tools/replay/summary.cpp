@@ -6,7 +6,6 @@
 
 #include "settings/sample_sentence.hpp"
 #include "slam/geometry/angle.hpp"
-#include "tools/evaluate/pace.hpp"
 
 namespace azimuth {
 namespace {

@@ -6,15 +6,49 @@
 #include <cstdint>
 #include <fmt/format.h>
 #include <span>
-#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "tools/evaluate/statistics.hpp"
 #include "tools/page/thinning.hpp"
 #include "tools/plot/landmark_style.hpp"
 
 namespace azimuth {
 namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kMostMapKinds = 64;
+
+bool has_name(const MapLandmark& landmark, MapNames names) {
+  return names == MapNames::sensor && landmark.identity != kUnknownIdentity;
+}
+
+/// The sensor's identity of the landmark, otherwise its id.
+std::string name_of(const MapLandmark& landmark, MapNames names) {
+  return fmt::format("{}", has_name(landmark, names) ? landmark.identity : landmark.id);
+}
+
+MapPicture picture_of(const MapSnapshot& map) {
+  MapPicture picture;
+  std::size_t row = map.first_landmark_entry();
+  for (const MapLandmark& landmark : map.landmarks) {
+    Eigen::Matrix2d P;
+    P << map.covariance(row, row), map.covariance(row + 1, row), map.covariance(row + 1, row),
+        map.covariance(row + 1, row + 1);
+    row += landmark.size();
+    while (std::cmp_greater_equal(landmark.kind, picture.kinds.size()) && picture.kinds.size() < kMostMapKinds)
+      picture.kinds.push_back({fmt::format("kind {}", picture.kinds.size()), std::nullopt});
+    picture.landmarks.push_back({.point = {landmark.p_map_landmark_m, P},
+                                 .name = name_of(landmark, map.names),
+                                 .kind = landmark.kind,
+                                 .id = has_name(landmark, map.names) ? std::nullopt : std::optional(landmark.id)});
+  }
+  picture.landmark_word = map.names == MapNames::looks ? "feature" : "landmark";
+  picture.T_map_body = map.T_map_body;
+  return picture;
+}
 
 using Json = nlohmann::ordered_json;
 
@@ -115,6 +149,24 @@ Json page_map(const MapPicture& picture) {
   const PageNames names(picture);
   for (const PlottedLandmark* one : best) json["landmarks"].push_back(landmark(*one, names, picture.kinds.size()));
   for (const Eigen::Vector2d& p_m : picture.true_landmarks) json["true_landmarks"].push_back(point(p_m));
+  return json;
+}
+
+Json page_of_map(const MapSnapshot& map, const std::string& name) {
+  Json json;
+  json["name"] = name;
+  json["estimator"] = "map file";
+  for (const char* const text : {"front_end", "digest", "trouble", "unread"}) json[text] = "";
+  json["steps"] = 0;
+  json["starts_at_us"] = to_us(map.stamp);
+  json["nees_bounds"] = {page_number(chi2_quantile(0.025, 3)), page_number(chi2_quantile(0.975, 3))};
+  json["metrics"] = Json::array();
+  for (const char* const column : {"step", "t", "x", "y", "heading", "xx", "xy", "yy", "odometry_x", "odometry_y",
+                                   "odometry_heading", "two_sigma_x", "two_sigma_y", "two_sigma_heading"})
+    json["series"][column] = Json::array();
+  json["health"] = Json::array();
+  json["map"] = page_map(picture_of(map));
+  json["pictures"] = Json::array();
   return json;
 }
 

@@ -8,8 +8,8 @@
 #include <tuple>
 #include <utility>
 
-#include "tools/evaluate/chi2.hpp"
 #include "tools/evaluate/pose_error.hpp"
+#include "tools/evaluate/statistics.hpp"
 
 namespace azimuth {
 namespace {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "tools/view/reception.hpp"
+#include "tools/view/times.hpp"
 
 namespace azimuth {
 

@@ -11,7 +11,7 @@
 
 #include "slam/estimator/rig.hpp"
 #include "slam/sample/bearings.hpp"
-#include "tools/view/pace.hpp"
+#include "tools/view/times.hpp"
 
 namespace azimuth {
 

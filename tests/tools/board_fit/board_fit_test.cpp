@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/rendered_boards.hpp"
-#include "tools/board_fit/board_equations.hpp"
 
 namespace azimuth {
 namespace {

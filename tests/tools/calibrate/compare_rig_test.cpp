@@ -1,9 +1,8 @@
-#include "tools/calibrate/compare_rig.hpp"
-
 #include <cmath>
 #include <gmock/gmock.h>
 
 #include "slam/camera/make_camera.hpp"
+#include "tools/calibrate/mirror_rig.hpp"
 
 namespace azimuth {
 namespace {

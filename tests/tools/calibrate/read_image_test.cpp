@@ -1,9 +1,8 @@
-#include "tools/calibrate/read_image.hpp"
-
 #include <gmock/gmock.h>
 
 #include "drivers/camera/jpeg.hpp"
 #include "tests/support/png_file.hpp"
+#include "tools/calibrate/image_files.hpp"
 
 namespace azimuth {
 namespace {

@@ -1,8 +1,7 @@
-#include "tools/compare/limits.hpp"
-
 #include <gtest/gtest.h>
 
 #include "tests/tools/compare/made_reports.hpp"
+#include "tools/compare/comparison.hpp"
 
 namespace azimuth {
 namespace {

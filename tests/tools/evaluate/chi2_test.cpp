@@ -1,8 +1,8 @@
-#include "tools/evaluate/chi2.hpp"
-
 #include <cmath>
 #include <gtest/gtest.h>
 #include <random>
+
+#include "tools/evaluate/statistics.hpp"
 
 namespace azimuth {
 namespace {

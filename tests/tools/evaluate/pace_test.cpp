@@ -1,10 +1,8 @@
-#include "tools/evaluate/pace.hpp"
-
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/support/stamps.hpp"
-#include "tools/evaluate/report_json.hpp"
+#include "tools/evaluate/report.hpp"
 
 namespace azimuth {
 namespace {

@@ -6,7 +6,6 @@
 #include <set>
 
 #include "tests/support/stamps.hpp"
-#include "tools/evaluate/report_json.hpp"
 
 namespace azimuth {
 namespace {

@@ -1,9 +1,8 @@
-#include "tools/export/geojson_export.hpp"
-
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/tools/export/sample.hpp"
+#include "tools/export/text_exports.hpp"
 
 namespace azimuth::test {
 namespace {

@@ -1,12 +1,12 @@
-#include "tools/export/recorded.hpp"
-
 #include <gtest/gtest.h>
 #include <optional>
 
 #include "drivers/storage/event_log.hpp"
+#include "drivers/storage/recorded_outputs.hpp"
 #include "drivers/wire/channels.hpp"
 #include "drivers/wire/messages.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tools/export/estimated.hpp"
 
 namespace azimuth::test {
 namespace {

@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "tests/tools/export/sample.hpp"
-#include "tools/export/csv_export.hpp"
-#include "tools/export/kitti_export.hpp"
+#include "tools/export/text_exports.hpp"
 
 namespace azimuth::test {
 namespace {

@@ -5,9 +5,7 @@
 #include <string>
 
 #include "tests/support/random_map.hpp"
-#include "tools/map_export/map_csv.hpp"
-#include "tools/map_export/map_geojson.hpp"
-#include "tools/map_export/map_summary.hpp"
+#include "tools/map_export/map_texts.hpp"
 
 namespace azimuth {
 namespace {

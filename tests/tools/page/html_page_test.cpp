@@ -6,7 +6,6 @@
 #include <set>
 #include <vector>
 
-#include "tools/page/base64.hpp"
 #include "tools/page/page_files.hpp"
 
 namespace azimuth {

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 #include <string>
 
-#include "tools/page/base64.hpp"
 #include "tools/page/html_page.hpp"
 
 namespace azimuth {

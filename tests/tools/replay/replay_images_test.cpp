@@ -13,7 +13,7 @@
 #include "tools/replay/replay.hpp"
 #include "tools/replay/replay_record.hpp"
 #include "tools/replay/summary.hpp"
-#include "tools/simulated/rendered_run.hpp"
+#include "tools/simulated/simulated_run.hpp"
 
 namespace azimuth {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "slam/planar/make_ekf_estimator.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "tools/simulated/rendered_run.hpp"
+#include "tools/simulated/simulated_run.hpp"
 
 namespace azimuth {
 namespace {

@@ -12,7 +12,7 @@
 #include "drivers/lcm/lcm_sink.hpp"
 #include "drivers/wire/messages.hpp"
 #include "drivers/wire/pieces.hpp"
-#include "tools/ros2/bridge/bridge_settings.hpp"
+#include "tools/ros2/bridge/options.hpp"
 #include "tools/ros2/bridge/ros_output.hpp"
 
 namespace azimuth {

@@ -1,8 +1,9 @@
-#include "tools/export/recorded.hpp"
+#include "tools/export/estimated.hpp"
 
 #include <utility>
 
 #include "drivers/estimates/estimate_messages.hpp"
+#include "drivers/storage/recorded_outputs.hpp"
 
 namespace azimuth {
 namespace {

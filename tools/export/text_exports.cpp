@@ -1,7 +1,11 @@
-#include "tools/export/geojson_export.hpp"
+#include "tools/export/text_exports.hpp"
 
+#include <array>
 #include <cmath>
+#include <initializer_list>
 #include <utility>
+
+#include "drivers/wire/number_text.hpp"
 
 namespace azimuth {
 namespace {
@@ -56,7 +60,72 @@ GeoJson landmark_point(const LandmarkEstimate& landmark, const GeoPlacement& pla
           {"properties", std::move(properties)}};
 }
 
+/// A T A^-1, where A converts robot axes to camera axes: x_c = -y_r, y_c = -z_r, z_c = x_r.
+std::array<double, 12> camera_pose(const Pose2& T) {
+  const double c = std::cos(T.heading_rad), s = std::sin(T.heading_rad);
+  return {c, 0.0, -s, 0.0 - T.y_m, 0.0, 1.0, 0.0, 0.0, s, 0.0, c, T.x_m};
+}
+
+constexpr const char* kColumns =
+    "t_s,x_m,y_m,heading_rad,var_x_m2,var_y_m2,var_heading_rad2,cov_xy_m2,cov_x_heading_m_rad,cov_y_heading_m_rad,"
+    "odom_x_m,odom_y_m,odom_heading_rad,health,reason\n";
+
+void append_numbers(std::string& line, std::initializer_list<double> values) {
+  for (const double value : values) {
+    line += ',';
+    append_double(line, value);
+  }
+}
+
+std::string in_quotes(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char letter : text) out += letter == '"' ? "\"\"" : std::string(1, letter);
+  return out + '"';
+}
+
 }  // namespace
+
+std::string poses_csv(const Estimated& estimated) {
+  std::string table = kColumns;
+  for (const EstimatedPose& pose : estimated.poses) {
+    const Pose2& T = pose.T_map_body;
+    const Eigen::Matrix3d& P = pose.covariance;
+    append_seconds(table, pose.stamp);
+    append_numbers(table, {T.x_m, T.y_m, T.heading_rad, P(0, 0), P(1, 1), P(2, 2), P(1, 0), P(2, 0), P(2, 1)});
+    if (const auto& odom = pose.T_odom_body)
+      append_numbers(table, {odom->x_m, odom->y_m, odom->heading_rad});
+    else
+      table += ",,,";
+    table += ',';
+    if (pose.health) table += to_string(*pose.health);
+    table += ',' + in_quotes(pose.reason) + '\n';
+  }
+  return table;
+}
+
+std::string kitti_text(const Estimated& estimated) {
+  std::string text;
+  for (const EstimatedPose& pose : estimated.poses) {
+    char separator = '\0';
+    for (const double value : camera_pose(pose.T_map_body)) {
+      if (separator != '\0') text += separator;
+      append_double(text, value + 0.0);  // turns -0 into 0
+      separator = ' ';
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+std::string kitti_times(const Estimated& estimated) {
+  std::string text;
+  for (const EstimatedPose& pose : estimated.poses) {
+    append_seconds(text, Stamp{pose.stamp - estimated.poses.front().stamp});
+    text += '\n';
+  }
+  return text;
+}
 
 std::string path_geojson(const Estimated& estimated, const std::optional<MapOrigin>& origin) {
   const GeoPlacement placement(origin);
