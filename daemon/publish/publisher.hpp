@@ -13,7 +13,7 @@
 #include "daemon/publish/publish_settings.hpp"
 #include "daemon/publish/status.hpp"
 #include "drivers/storage/session.hpp"
-#include "slam/estimator/past_pose.hpp"
+#include "slam/estimator/estimate.hpp"
 #include "slam/sample/bearings.hpp"
 #include "slam/sample/odometry.hpp"
 
