@@ -25,41 +25,50 @@ Axes::Axes(const Extent& shown, const Eigen::Vector2d& top_left_px, double width
     : top_left_px_(top_left_px), size_px_(width_px, 0.0) {
   const Eigen::Vector2d size_m = shown.size_m().cwiseMax(1e-3);
   size_px_.y() = std::clamp(width_px * size_m.y() / size_m.x(), min_height_px, max_height_px);
-  scale_px_per_m_ = size_px_.cwiseQuotient(size_m).minCoeff();
-  const Eigen::Vector2d centre_m = (shown.low_m + shown.high_m) / 2, half_m = size_px_ / scale_px_per_m_ / 2;
+  scale_px_per_m_.setConstant(size_px_.cwiseQuotient(size_m).minCoeff());
+  const Eigen::Vector2d centre_m = (shown.low_m + shown.high_m) / 2,
+                        half_m = size_px_.cwiseQuotient(scale_px_per_m_) / 2;
   shown_ = {centre_m - half_m, centre_m + half_m, false};
+  constexpr double kPxPerTick = 90.0;
+  const int most = std::max(3, static_cast<int>(size_px_.minCoeff() / kPxPerTick));
+  // Both axes have the same step, so that the grid consists of squares.
+  step_.setConstant(tick_step(shown_.size_m().minCoeff(), most));
 }
+
+Axes::Axes(const DiagramAxis& x, const DiagramAxis& y, const Box& frame_px)
+    : top_left_px_(frame_px.low),
+      size_px_(frame_px.high - frame_px.low),
+      scale_px_per_m_(size_px_.cwiseQuotient(Eigen::Vector2d{x.high - x.low, y.high - y.low})),
+      shown_{{x.low, y.low}, {x.high, y.high}, false},
+      x_name_(x.name),
+      y_name_(y.name),
+      step_(x.step, y.step) {}
 
 Eigen::Vector2d Axes::to_px(const Eigen::Vector2d& p_map_m) const {
   return top_left_px_ +
-         scale_px_per_m_ * Eigen::Vector2d{p_map_m.x() - shown_.low_m.x(), shown_.high_m.y() - p_map_m.y()};
+         scale_px_per_m_.cwiseProduct(Eigen::Vector2d{p_map_m.x() - shown_.low_m.x(), shown_.high_m.y() - p_map_m.y()});
 }
 
 void Axes::draw(PlotCanvas& canvas) const {
-  constexpr double kPxPerTick = 90.0;
   const Eigen::Vector2d end = top_left_px_ + size_px_;
-  const int most = std::max(3, static_cast<int>(size_px_.minCoeff() / kPxPerTick));
-  // Both axes have the same step, so that the grid consists of squares.
-  const double step_m = tick_step(shown_.size_m().minCoeff(), most);
-
   const TextStyle style{19.0, kLabel, false, Anchor::centre};
-  for (const double x_m : multiples(shown_.low_m.x(), shown_.high_m.x(), step_m)) {
+  for (const double x_m : multiples(shown_.low_m.x(), shown_.high_m.x(), step_.x())) {
     const double x_px = to_px(Eigen::Vector2d{x_m, 0.0}).x();
     canvas.line(std::array<Eigen::Vector2d, 2>{{{x_px, top_left_px_.y()}, {x_px, end.y()}}}, kGrid, 1.2);
-    canvas.text(label(x_m, step_m), {x_px, end.y() + 28.0}, style);
+    canvas.text(label(x_m, step_.x()), {x_px, end.y() + 28.0}, style);
   }
   TextStyle beside = style;
   beside.anchor = Anchor::right;
-  for (const double y_m : multiples(shown_.low_m.y(), shown_.high_m.y(), step_m)) {
+  for (const double y_m : multiples(shown_.low_m.y(), shown_.high_m.y(), step_.y())) {
     const double y_px = to_px(Eigen::Vector2d{0.0, y_m}).y();
     canvas.line(std::array<Eigen::Vector2d, 2>{{{top_left_px_.x(), y_px}, {end.x(), y_px}}}, kGrid, 1.2);
-    canvas.text(label(y_m, step_m), {top_left_px_.x() - 12.0, y_px + 7.0}, beside);
+    canvas.text(label(y_m, step_.y()), {top_left_px_.x() - 12.0, y_px + 7.0}, beside);
   }
   canvas.polygon(
       std::array<Eigen::Vector2d, 4>{{top_left_px_, {end.x(), top_left_px_.y()}, end, {top_left_px_.x(), end.y()}}},
       kFrame.with_alpha(0.0), kFrame, 1.5);
-  canvas.text("x (m)", {(top_left_px_.x() + end.x()) / 2, end.y() + 60.0}, style);
-  canvas.text("y (m)", {top_left_px_.x() - 62.0, (top_left_px_.y() + end.y()) / 2}, style, true);
+  canvas.text(x_name_, {(top_left_px_.x() + end.x()) / 2, end.y() + 60.0}, style);
+  canvas.text(y_name_, {top_left_px_.x() - 62.0, (top_left_px_.y() + end.y()) / 2}, style, true);
 }
 
 }  // namespace azimuth

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <string>
 
 #include "tools/plot/canvas.hpp"
 #include "tools/plot/clip.hpp"
@@ -7,29 +8,38 @@
 
 namespace azimuth {
 
-/// Maps map coordinates to the canvas: x to the right, y upwards, the same scale for both.
+/// One axis of a diagram: its name, its range, and the step of its grid lines.
+struct DiagramAxis {
+  std::string name;
+  double low = 0.0, high = 1.0, step = 1.0;
+};
+
+/// Maps map coordinates to the canvas: x to the right, y upwards, the same scale for both. A diagram has two scales.
 class Axes {
  public:
   /// Fits `shown` into a frame of width `width_px` at `top_left_px`. The height of the frame follows from the shape of
   /// `shown`, between `min_height_px` and `max_height_px`. In one direction the frame may show more than `shown`.
   Axes(const Extent& shown, const Eigen::Vector2d& top_left_px, double width_px, double min_height_px,
        double max_height_px);
+  /// Axes of two quantities other than metres, which fill the frame.
+  Axes(const DiagramAxis& x, const DiagramAxis& y, const Box& frame_px);
 
   Eigen::Vector2d to_px(const Eigen::Vector2d& p_map_m) const;
-  double to_px(double length_m) const { return length_m * scale_px_per_m_; }
+  double to_px(double length_m) const { return length_m * scale_px_per_m_.x(); }
   const Eigen::Vector2d& top_left_px() const { return top_left_px_; }
   const Eigen::Vector2d& size_px() const { return size_px_; }
   Box frame_px() const { return {top_left_px_, top_left_px_ + size_px_}; }
   /// The part of the map that the frame shows [m].
   Box shown_m() const { return {shown_.low_m, shown_.high_m}; }
 
-  /// Draws grid lines, frame, tick labels in metres and axis names.
+  /// Draws grid lines, frame, tick labels and axis names.
   void draw(PlotCanvas& canvas) const;
 
  private:
-  Eigen::Vector2d top_left_px_, size_px_;
-  double scale_px_per_m_;
+  Eigen::Vector2d top_left_px_, size_px_, scale_px_per_m_;
   Extent shown_;
+  std::string x_name_ = "x (m)", y_name_ = "y (m)";
+  Eigen::Vector2d step_;  // between grid lines
 };
 
 }  // namespace azimuth

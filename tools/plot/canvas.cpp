@@ -210,11 +210,18 @@ cairo_status_t PlotCanvas::encode() {
   return cairo_surface_status(surface_.get());
 }
 
+tl::expected<std::string, std::string> PlotCanvas::file_bytes() {
+  if (const cairo_status_t status = encode(); status != CAIRO_STATUS_SUCCESS)
+    return tl::unexpected(std::string(cairo_status_to_string(status)));
+  return *bytes_;
+}
+
 std::optional<std::string> PlotCanvas::write(const std::filesystem::path& file) {
-  if (const cairo_status_t status = encode(); status != CAIRO_STATUS_SUCCESS) return cairo_status_to_string(status);
+  const tl::expected<std::string, std::string> bytes = file_bytes();
+  if (!bytes) return bytes.error();
   errno = 0;
   std::ofstream stream(file, std::ios::binary);
-  stream << *bytes_;
+  stream << *bytes;
   stream.close();
   if (!stream) return "cannot be written: " + std::string(std::strerror(errno));
   return std::nullopt;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <tl/expected.hpp>
 
 #include "slam/sample/image.hpp"
 #include "tools/plot/plot_format.hpp"
@@ -51,8 +52,10 @@ class PlotCanvas {
   void clip(const Eigen::Vector2d& low_px, const Eigen::Vector2d& size_px);
   void release_clip();
 
-  /// Writes the file and ends the drawing. The same drawing operations give the same bytes. Returns the reason if it
-  /// fails.
+  /// Ends the drawing and returns the bytes of the file, or the reason if it fails. The same drawing operations give
+  /// the same bytes.
+  tl::expected<std::string, std::string> file_bytes();
+  /// Writes file_bytes() to the file. Returns the reason if it fails.
   [[nodiscard]] std::optional<std::string> write(const std::filesystem::path& file);
 
  private:

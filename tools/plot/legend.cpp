@@ -12,17 +12,6 @@
 namespace azimuth {
 namespace {
 
-LegendEntry line_entry(const std::string& words, const Colour& colour, double width_px, double dash_px = 0.0) {
-  return {words, [=](PlotCanvas& canvas, const Eigen::Vector2d& centre_px) {
-            const Eigen::Vector2d half{20.0, 0.0};
-            const std::array<Eigen::Vector2d, 2> ends{centre_px - half, centre_px + half};
-            if (dash_px > 0.0)
-              canvas.dashed_line(ends, colour, width_px, dash_px);
-            else
-              canvas.line(ends, colour, width_px);
-          }};
-}
-
 /// Draws a horizontal ellipse as the legend symbol of a covariance.
 void draw_oval(PlotCanvas& canvas, const Eigen::Vector2d& centre_px, const Colour& fill, const Colour& edge,
                double width_px) {
@@ -84,6 +73,17 @@ constexpr double kSymbol_px = 44.0, kGap_px = 10.0, kBetween_px = 30.0;
 const TextStyle kStyle{20.0, kInk, false, Anchor::left};
 
 }  // namespace
+
+LegendEntry line_entry(const std::string& words, const Colour& colour, double width_px, double dash_px) {
+  return {words, [=](PlotCanvas& canvas, const Eigen::Vector2d& centre_px) {
+            const Eigen::Vector2d half{20.0, 0.0};
+            const std::array<Eigen::Vector2d, 2> ends{centre_px - half, centre_px + half};
+            if (dash_px > 0.0)
+              canvas.dashed_line(ends, colour, width_px, dash_px);
+            else
+              canvas.line(ends, colour, width_px);
+          }};
+}
 
 std::vector<RowPlace> flow(std::span<const double> widths_px, double row_px) {
   std::vector<RowPlace> places;

@@ -15,6 +15,9 @@ struct LegendEntry {
   std::function<void(PlotCanvas& canvas, const Eigen::Vector2d& centre_px)> symbol;
 };
 
+/// The entry of a line; `dash_px` 0: a line without dashes.
+LegendEntry line_entry(const std::string& words, const Colour& colour, double width_px, double dash_px = 0.0);
+
 inline constexpr double kLegendRow_px = 34.0;
 
 /// A legend whose entries are arranged in rows from left to right.

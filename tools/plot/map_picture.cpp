@@ -6,7 +6,6 @@
 #include "slam/geometry/angle.hpp"
 #include "slam/geometry/principal_axes.hpp"
 #include "tools/plot/axes.hpp"
-#include "tools/plot/canvas.hpp"
 #include "tools/plot/legend.hpp"
 #include "tools/plot/map_layers.hpp"
 #include "tools/plot/map_strokes.hpp"
@@ -31,24 +30,27 @@ Eigen::Matrix2d half_axes_m(const Eigen::Matrix2d& covariance_m2) {
 
 }  // namespace
 
-std::optional<std::string> write_map_picture(const MapPicture& picture, const std::filesystem::path& file) {
-  const std::optional<PlotFormat> format = plot_format(file);
-  if (!format) return "the name of a picture must end in .png, .svg or .pdf";
+PlotCanvas drawn_map(const MapPicture& picture, PlotFormat format) {
   PlotCanvas ruler(1, 1, kPaperColour);
   const Legend legend(ruler, legend_entries(picture, axes_below(0.0, picture).shown_m()), kInner_px);
   const Axes axes = axes_below(kLegendTop_px + legend.height_px() + 14.0, picture);
   const std::string note = words(left_out(picture, axes.shown_m()), picture.landmark_word);
   const double axes_end_px = axes.frame_px().high.y() + kBottom_px;
   PlotCanvas canvas(static_cast<int>(kWidth_px),
-                    static_cast<int>(std::lround(axes_end_px + (note.empty() ? 0.0 : kNote_px))), kPaperColour,
-                    *format);
+                    static_cast<int>(std::lround(axes_end_px + (note.empty() ? 0.0 : kNote_px))), kPaperColour, format);
   canvas.text(picture.title, {kLeft_px, 56.0}, {34.0, kInkColour, true, Anchor::left});
   canvas.text(picture.subtitle, {kLeft_px, 94.0}, {22.0, kFaintColour, false, Anchor::left});
   legend.draw(canvas, {kLeft_px, kLegendTop_px});
   axes.draw(canvas);
   MapLayers(canvas, axes, picture).draw();
   canvas.text(note, {kLeft_px, axes_end_px + 14.0}, {19.0, kFaintColour, false, Anchor::left});
-  return canvas.write(file);
+  return canvas;
+}
+
+std::optional<std::string> write_map_picture(const MapPicture& picture, const std::filesystem::path& file) {
+  const std::optional<PlotFormat> format = plot_format(file);
+  if (!format) return "the name of a picture must end in .png, .svg or .pdf";
+  return drawn_map(picture, *format).write(file);
 }
 
 double semi_major_m(const UncertainPoint& point) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "slam/geometry/pose2.hpp"
+#include "tools/plot/canvas.hpp"
 #include "tools/plot/clip.hpp"
 #include "tools/plot/landmark_style.hpp"
 
@@ -52,7 +53,10 @@ struct MapPicture {
   std::optional<Pose2> T_map_body;  ///< final pose of the robot
 };
 
-/// Writes a picture of 1600 pixels width. The file name extension determines the format: see plot_format(). Returns the
+/// Draws a picture of 1600 pixels width.
+PlotCanvas drawn_map(const MapPicture& picture, PlotFormat format);
+
+/// Writes drawn_map(). The file name extension determines the format: see plot_format(). Returns the
 /// reason if it fails.
 [[nodiscard]] std::optional<std::string> write_map_picture(const MapPicture& picture,
                                                            const std::filesystem::path& file);
