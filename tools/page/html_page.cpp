@@ -56,6 +56,20 @@ std::vector<std::string_view> modules_of(std::string_view module) {
 /// The hash source of a script or style for a Content-Security-Policy.
 std::string source_of(std::string_view text) { return "'sha256-" + base64(sha256(text)) + '\''; }
 
+/// The page up to its body. `script_policy` is the part of the policy that allows a script; it may be empty.
+std::string head(std::string_view title, const std::string& script_policy) {
+  const std::string_view style = text_of("page.css");
+  std::string page = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n";
+  page +=
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; base-uri 'none'; form-action "
+      "'none'; ";
+  page += "img-src data:; style-src " + source_of(style) + script_policy + "\">\n";
+  page += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
+  page += "<meta name=\"color-scheme\" content=\"light dark\">\n<title>" + html_text(title) + "</title>\n<style>";
+  page.append(style) += "</style>\n</head>\n<body>\n";
+  return page;
+}
+
 }  // namespace
 
 std::string html_text(std::string_view text) {
@@ -99,18 +113,16 @@ std::string joined_modules(std::string_view module) {
 
 std::string html_page(std::string_view title, std::string_view data, std::string_view module) {
   const std::string script = joined_modules(module);
-  const std::string_view style = text_of("page.css");
-  std::string page = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n";
-  page +=
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; base-uri 'none'; form-action "
-      "'none'; ";
-  page += "img-src data:; style-src " + source_of(style) + "; script-src " + source_of(script) + "\">\n";
-  page += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
-  page += "<meta name=\"color-scheme\" content=\"light dark\">\n<title>" + html_text(title) + "</title>\n<style>";
-  page.append(style) += "</style>\n</head>\n<body>\n<main></main>\n";
+  std::string page = head(title, "; script-src " + source_of(script)) + "<main></main>\n";
   page += "<noscript>This page draws with JavaScript, all of which is in it.</noscript>\n";
   page += "<script type=\"application/json\" id=\"data\">" + json_in_html(data) + "</script>\n";
   page += "<script type=\"module\">" + script + "</script>\n</body>\n</html>\n";
+  return page;
+}
+
+std::string page_without_script(std::string_view title, std::string_view body) {
+  std::string page = head(title, {}) + "<main>\n";
+  page.append(body) += "</main>\n</body>\n</html>\n";
   return page;
 }
 

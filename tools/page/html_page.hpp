@@ -12,7 +12,11 @@ namespace azimuth {
 /// loading anything and running other scripts. Reentrant.
 std::string html_page(std::string_view title, std::string_view data, std::string_view module = "report.js");
 
-/// Escapes text for use between HTML tags.
+/// A self-contained page in the same style that needs no script. `body` is the HTML of the main element, in which all
+/// foreign text is escaped. The Content-Security-Policy forbids loading anything and running any script. Reentrant.
+std::string page_without_script(std::string_view title, std::string_view body);
+
+/// Escapes text for use between HTML tags, and in attributes with double quotes.
 std::string html_text(std::string_view text);
 
 /// Escapes JSON for use inside a script element: "<", ">" and "&" become numeric escapes.

@@ -55,6 +55,17 @@ TEST(HtmlPage, LoadsNothing) {
     EXPECT_EQ(times_in(page, word), 0u) << word;
 }
 
+TEST(HtmlPage, WithoutScriptItRunsNone) {
+  const std::string page = page_without_script("a & b", "<p>words</p>");
+  EXPECT_THAT(page, HasSubstr("<title>a &amp; b</title>"));
+  EXPECT_THAT(page, HasSubstr("<main>\n<p>words</p></main>"));
+  EXPECT_EQ(times_in(page, "<script"), 0u);
+  const std::string policy = between(page, "Content-Security-Policy\" content=\"", "\"");
+  EXPECT_THAT(policy, HasSubstr("default-src 'none'"));
+  EXPECT_THAT(policy, HasSubstr("style-src 'sha256-" + base64(sha256(between(page, "<style>", "</style>"))) + "'"));
+  EXPECT_THAT(policy, Not(HasSubstr("script-src")));
+}
+
 TEST(HtmlPage, EveryModuleIsInItWithoutImports) {
   const std::string modules = joined_modules();
   EXPECT_EQ(times_in(modules, "\nimport "), 0u);
