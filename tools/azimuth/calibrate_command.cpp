@@ -19,6 +19,10 @@ void add_calibrate_command(CLI::App& app) {
       std::string(kRunHelp) + ", with a rig.toml or without: calibrate everything that the drive tells of the rig");
   add_run_options(*command, options->run);
   add_calibration_outputs(*command, options->outputs);
+  command->get_option("--force")->description("Replace the files of --out and --html if they exist");
+  command->add_option("--html", options->outputs.html,
+                      "Write one self-contained page for a browser: what was found and replaced, what the drive cannot "
+                      "tell, path and map, residuals of the bearings before and after, and the rig.toml of --out");
   command
       ->add_option("--only", options->only,
                    "Find these parts of the rig alone, and leave the rest as it is; may be repeated, or PART,PART")
@@ -30,7 +34,8 @@ void add_calibrate_command(CLI::App& app) {
       "wrong use or input, or the drive cannot tell.");
   command->callback([command, options] {
     if (!command->get_subcommands().empty()) {
-      if (!options->only.empty()) throw CLI::ExcludesError("--only", command->get_subcommands().front()->get_name());
+      for (const char* const name : {"--only", "--html"})
+        if (command->count(name) > 0) throw CLI::ExcludesError(name, command->get_subcommands().front()->get_name());
       return;
     }
     if (options->run.run.empty()) throw CLI::RequiredError("RUN or a subcommand");

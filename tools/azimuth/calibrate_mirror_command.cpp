@@ -9,7 +9,6 @@
 
 #include "settings/rig.hpp"
 #include "slam/camera/make_camera.hpp"
-#include "slam/perception/calibration/mirror_finder.hpp"
 #include "tools/azimuth/calibrate_mirror.hpp"
 #include "tools/azimuth/command.hpp"
 #include "tools/azimuth/output_path.hpp"
@@ -33,12 +32,6 @@ struct MirrorOptions {
   bool force = false;
 };
 
-struct Search {
-  ImageFile first;
-  int images = 0;
-  MirrorCircle mirror;
-};
-
 /// Counts images that cannot be read. A damaged image among good ones does not end the search.
 struct Unread {
   int count = 0;
@@ -52,11 +45,11 @@ struct Unread {
   }
 };
 
-Search find_mirror(const MirrorOptions& options) {
+MirrorSearch find_mirror(const MirrorOptions& options) {
   FileResult<std::vector<std::filesystem::path>> files = image_files(options.images, options.most_images);
   if (!files) refuse(files.error());
   MirrorFinder finder;
-  Search search;
+  MirrorSearch search;
   Unread unread;
   for (const std::filesystem::path& file : *files) {
     std::optional<ImageFile> image = unread.read(file);
@@ -76,7 +69,7 @@ Search find_mirror(const MirrorOptions& options) {
   return search;
 }
 
-void print_mirror(const Search& search) {
+void print_mirror(const MirrorSearch& search) {
   const MirrorCircle& mirror = search.mirror;
   fmt::print("mirror      centre ({:.2f}, {:.2f}) px +- {:.2f}, radius {:.2f} px +- {:.2f}, in {} image{}\n",
              mirror.rim.centre_px.x(), mirror.rim.centre_px.y(), mirror.sigma_centre_px, mirror.rim.radius_px,
@@ -127,7 +120,7 @@ void say_what_next(const MirrorOptions& options) {
 }
 
 /// Writes the rig only if it can be read back, since the model may need a parameter that was not given.
-void write_rig(const Search& search, const MirrorOptions& options) {
+void write_rig(const MirrorSearch& search, const MirrorOptions& options) {
   if (!options.force && std::filesystem::exists(options.out))
     refuse(options.out.string() + ": exists already; --force replaces it");
   Rig rig = mirror_rig(search.mirror, search.first.format, options.model);
@@ -142,12 +135,12 @@ void write_rig(const Search& search, const MirrorOptions& options) {
   say_what_next(options);
 }
 
-void draw(const Search& search, const std::filesystem::path& file) {
+void draw(const MirrorSearch& search, const std::filesystem::path& file) {
   PlotCanvas picture = mirror_picture(search.first.view(), search.mirror);
   if (const auto problem = picture.write(file)) fail(file.string() + ": " + *problem);
 }
 
-void compare(const Search& search, const std::filesystem::path& file) {
+void compare(const MirrorSearch& search, const std::filesystem::path& file) {
   const FileResult<Rig> rig = read_rig_file(file);
   if (!rig) refuse(rig.error());
   const ImageRig& image = rig->camera.image;
@@ -162,7 +155,7 @@ void calibrate_mirror(const MirrorOptions& options) {
   if (!options.picture.empty() && plot_format(options.picture) != PlotFormat::png)
     refuse(options.picture.string() + ": the name of a picture of pixels must end in .png");
   check_writable(options.picture);
-  const Search search = find_mirror(options);
+  const MirrorSearch search = find_mirror(options);
   print_mirror(search);
   if (!options.picture.empty()) draw(search, options.picture);
   if (!options.out.empty()) write_rig(search, options);
@@ -189,14 +182,14 @@ void add_model_options(CLI::App& command, MirrorOptions& options) {
 
 }  // namespace
 
-Rig rig_by_mirror(const std::filesystem::path& run, bool quiet) {
+RigByMirror rig_by_mirror(const std::filesystem::path& run, bool quiet) {
   MirrorOptions options;
   options.images = {run};
-  const Search search = find_mirror(options);
-  if (!quiet) print_mirror(search);
-  Rig rig = mirror_rig(search.mirror, search.first.format, options.model);
-  choose_front_end(options, rig, quiet);
-  return rig;
+  RigByMirror found{.search = find_mirror(options), .rig = {}};
+  if (!quiet) print_mirror(found.search);
+  found.rig = mirror_rig(found.search.mirror, found.search.first.format, options.model);
+  choose_front_end(options, found.rig, quiet);
+  return found;
 }
 
 void add_calibrate_mirror_command(CLI::App& app) {

@@ -21,7 +21,7 @@ struct RunCalibrationOptions {
 
 /// Calibrates the run's rig. A run without a rig begins from a mirror found in its images, or from its bearings. Prints
 /// the values that were found and the parts that the drive cannot tell. All parts are always fitted together, but only
-/// the requested parts change in the rig. Refuses drives that tell nothing.
+/// the requested parts change in the rig. Writes the outputs that are asked for. Refuses drives that tell nothing.
 void calibrate_by_run(const RunCalibrationOptions& options);
 
 }  // namespace azimuth

@@ -75,9 +75,11 @@ void add_calibration_outputs(CLI::App& command, CalibrationOutputs& outputs) {
 void check_outputs(const CalibrationOutputs& outputs) {
   check_picture_name(outputs.picture);
   check_writable(outputs.picture);
-  if (!outputs.force && !outputs.rig.empty() && std::filesystem::exists(outputs.rig))
-    refuse(outputs.rig.string() + ": exists already; --force replaces it");
-  check_writable(outputs.rig);
+  for (const std::filesystem::path& file : {outputs.rig, outputs.html}) {
+    if (!outputs.force && !file.empty() && std::filesystem::exists(file))
+      refuse(file.string() + ": exists already; --force replaces it");
+    check_writable(file);
+  }
 }
 
 void write_rig_text(const std::string& text, const std::filesystem::path& file) {

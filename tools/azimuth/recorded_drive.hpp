@@ -35,6 +35,7 @@ void refuse_if_unfit(const DriveSolution& solution, const std::string& run);
 /// The output files of a calibration. An empty path is not written.
 struct CalibrationOutputs {
   std::filesystem::path rig, picture;
+  std::filesystem::path html = {};  ///< of calibrate RUN alone
   bool force = false;
 };
 void add_calibration_outputs(CLI::App& command, CalibrationOutputs& outputs);

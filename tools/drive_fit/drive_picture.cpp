@@ -4,7 +4,9 @@
 #include <utility>
 #include <vector>
 
+#include "slam/geometry/angle.hpp"
 #include "slam/geometry/index.hpp"
+#include "slam/smoother/factors.hpp"
 #include "tools/drive_fit/drive_motions.hpp"
 
 namespace azimuth {
@@ -48,6 +50,24 @@ MapPicture drive_picture(const Drive& drive, const DriveSolution& solution, cons
   add_landmarks(solution.graph, smoother, picture);
   picture.T_map_body = smoother.newest_pose();
   return picture;
+}
+
+std::vector<PlottedResidual> residuals_with(const Drive& drive, const DriveGraph& graph, const RigGuess& guess,
+                                            const HindsightSettings& settings) {
+  const Smoother smoother = smoother_of(drive, graph, guess, {}, settings);
+  const BearingGraph& solved = smoother.graph();
+  std::vector<PlottedResidual> residuals;
+  for (BearingId id = 0; id < solved.bearings(); ++id) {
+    const LandmarkId landmark = solved.landmark_of(id);
+    if (landmark == kOfNothing || solved.bearings_of(landmark).size() < 3) continue;
+    const BearingMeasurement& measured = solved.bearing(id);
+    SeenAzimuth expected;
+    if (!see(solved.smoothed_pose(measured.pose), solved.landmark(landmark), SmootherSettings{}.min_distance_m,
+             expected))
+      continue;
+    residuals.push_back({measured.azimuth_rad, wrap(measured.azimuth_rad - expected.azimuth_rad) / measured.sigma_rad});
+  }
+  return residuals;
 }
 
 }  // namespace azimuth

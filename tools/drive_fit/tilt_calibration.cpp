@@ -113,8 +113,8 @@ std::optional<TiltCalibration> calibrate_tilt(const Drive& drive, const DriveSol
   found.told = found.sigma_rad <= kToldTilt_rad;
   found.contradicts = found.told && (by_rad.array().square() / variance.array()).sum() > kSurelyLeans;
   const CameraTilt by{by_rad.x(), by_rad.y()};
-  if (found.contradicts)
-    found.tilt = tilt_of_axis(by.R_level_camera() * camera->tilt().R_level_camera() * Eigen::Vector3d::UnitZ());
+  found.likeliest = tilt_of_axis(by.R_level_camera() * camera->tilt().R_level_camera() * Eigen::Vector3d::UnitZ());
+  if (found.contradicts) found.tilt = found.likeliest;
   return found;
 }
 

@@ -9,10 +9,11 @@
 namespace azimuth {
 
 struct TiltCalibration {
-  CameraTilt tilt;           ///< tilt of the camera; the rig's own value if `contradicts` is false
-  double sigma_rad = 0.0;    ///< the larger standard deviation of roll and pitch
-  bool told = false;         ///< false if sigma_rad is too large
-  bool contradicts = false;  ///< the rig's tilt is surely wrong
+  CameraTilt tilt;            ///< tilt of the camera; the rig's own value if `contradicts` is false
+  CameraTilt likeliest = {};  ///< tilt that fits the drive best
+  double sigma_rad = 0.0;     ///< the larger standard deviation of roll and pitch
+  bool told = false;          ///< false if sigma_rad is too large
+  bool contradicts = false;   ///< the rig's tilt is surely wrong
 };
 
 /// Preconditions: the azimuths of the drive were levelled with the rig's tilt, and `solution` has the right azimuth

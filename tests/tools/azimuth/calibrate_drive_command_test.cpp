@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <regex>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -22,7 +23,7 @@ using testing::Not;
 class CalibrateDrive : public testing::Test {
  protected:
   ScratchFolder scratch_;
-  std::string rig_ = scratch_ / "found.toml", picture_ = scratch_ / "found.svg";
+  std::string rig_ = scratch_ / "found.toml", picture_ = scratch_ / "found.svg", page_ = scratch_ / "found.html";
 };
 
 TEST_F(CalibrateDrive, OdometryWritesARigAndAPicture) {
@@ -153,13 +154,92 @@ TEST_F(CalibrateDrive, BeforeTheDirectionIsRightNothingElseIsTold) {
   EXPECT_THAT(outcome.err, HasSubstr("--only heading first"));
 }
 
+/// What follows `begin` in the lines of `text` that hold it.
+std::vector<std::string> ends_of_lines(const std::string& text, const std::string& begin) {
+  std::vector<std::string> ends;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+    if (const std::size_t at = line.find(begin); at != std::string::npos)
+      ends.push_back(line.substr(at + begin.size()));
+  return ends;
+}
+
+TEST_F(CalibrateDrive, APageSaysWhatIsPrintedAndShowsTheRigThatIsWritten) {
+  write_file(page_, "of another drive");
+  EXPECT_THAT(azimuth({"calibrate", one_lap(), "--html", page_}).err, HasSubstr("found.html: exists already; --force"));
+  EXPECT_EQ(file_bytes(page_), "of another drive");
+  const Outcome outcome = azimuth({"calibrate", one_lap(), "--out", rig_, "--html", page_, "--force"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::string page = file_bytes(page_);
+  const std::vector<std::string> untold = ends_of_lines(outcome.out, "cannot tell: "),
+                                 kept = ends_of_lines(outcome.out, ", as it was");
+  ASSERT_EQ(untold.size(), 1U) << outcome.out;
+  EXPECT_THAT(page, HasSubstr(">" + untold.front() + "</td>"));
+  ASSERT_FALSE(kept.empty()) << outcome.out;
+  std::size_t kept_in_page = 0;
+  for (const std::string& row : ends_of_lines(page, "<td><code>")) kept_in_page += row.find("fits the rig: kept") < 999;
+  EXPECT_GE(kept_in_page, kept.size());
+  for (const std::string key : {"camera.yaw_offset_rad", "odometry.scale_turn", "camera.sigma_bearing_rad"})
+    EXPECT_THAT(page, HasSubstr("<td><code>" + key + "</code></td>"));
+  EXPECT_THAT(page, HasSubstr(">" + std::regex_replace(file_bytes(rig_), std::regex("\""), "&quot;") + "</pre>"))
+      << "as --out writes it";
+  EXPECT_EQ(ends_of_lines(page, "src=\"data:image/svg+xml;base64,").size(), 2U);
+}
+
+TEST_F(CalibrateDrive, APageNamesTheMotionsThatAShortDriveLacks) {
+  const std::string run = scratch_ / "short";
+  std::filesystem::copy(one_lap(), run, std::filesystem::copy_options::recursive);
+  for (const std::string table : {"/odometry.csv", "/bearings.csv"}) {
+    std::istringstream all(file_bytes(run + table));
+    std::string line, kept;
+    while (std::getline(all, line))
+      if (kept.empty() || std::stod(line) <= 20.0) kept += line + '\n';
+    write_file(run + table, kept);
+  }
+  const Outcome outcome = azimuth({"calibrate", run, "--html", page_});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::vector<std::string> untold = ends_of_lines(outcome.out, "cannot tell: ");
+  ASSERT_GE(untold.size(), 3U) << outcome.out;
+  const std::string page = file_bytes(page_);
+  for (const std::string& sentence : untold) EXPECT_THAT(page, HasSubstr(">" + sentence + "</td>"));
+  EXPECT_THAT(page, HasSubstr(">scale_turn; drive longer, among landmarks, with turns both ways</td>"));
+  EXPECT_THAT(page, Not(HasSubstr("<code>odometry.scale_turn</code>"))) << "what is not told is not found";
+}
+
+TEST_F(CalibrateDrive, APageOfARunWithoutARigComparesWithDefaults) {
+  const Outcome outcome = azimuth({"calibrate", lap_without_rig(scratch_ / "lap", 0.2), "--html", page_});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::string page = file_bytes(page_);
+  const auto yaw = ends_of_lines(outcome.out, "camera.yaw_offset_rad = "),
+             row = ends_of_lines(page, "camera.yaw_offset_rad</code>");
+  ASSERT_EQ(yaw.size(), 1U);
+  ASSERT_FALSE(row.empty());
+  EXPECT_THAT(row.front(), HasSubstr(">0.0000 (0.00\u00b0)</td><td class=\"number\">" + yaw.front().substr(0, 6)));
+  EXPECT_THAT(row.front(), HasSubstr("differs from the default: replaced"));
+  EXPECT_THAT(page, HasSubstr("there was no rig.toml"));
+  EXPECT_THAT(page, Not(HasSubstr("the rig:")));
+}
+
+TEST_F(CalibrateDrive, APageThatCannotBeWrittenIsRefusedBeforeAnyWork) {
+  const std::string nowhere = scratch_ / "nowhere/found.html";
+  const Outcome outcome = azimuth({"calibrate", one_lap(), "--html", nowhere});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr(nowhere + ": cannot be written: No such file or directory"));
+  EXPECT_THAT(outcome.out, testing::IsEmpty());
+  EXPECT_EQ(azimuth({"calibrate", "--html", page_, "heading", one_lap()}).code, 2) << "it would have been of no effect";
+}
+
 TEST_F(CalibrateDrive, ImagesTellTheOpticsFirst) {
   const std::string run = scratch_ / "mirror";
   std::filesystem::copy(shipped_run().parent_path() / "mirror", run, std::filesystem::copy_options::recursive);
   std::filesystem::remove(run + "/rig.toml");
-  const Outcome outcome = azimuth({"calibrate", run, "--out", rig_});
+  const Outcome outcome = azimuth({"calibrate", run, "--out", rig_, "--html", page_});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("mirror      centre ("));
+  const std::string page = file_bytes(page_);
+  EXPECT_THAT(page, HasSubstr("src=\"data:image/png;base64,"));
+  EXPECT_THAT(page, HasSubstr("<code>camera.centre_px</code>"));
+  EXPECT_THAT(page, HasSubstr("cannot tell without more images to a metre</td>"));
   const auto rig = read_rig_file(rig_);
   ASSERT_TRUE(rig) << text(rig.error());
   EXPECT_TRUE(rig->camera.image.centre_px);
