@@ -29,7 +29,8 @@ void add_calibrate_command(CLI::App& app) {
       ->delimiter(',')
       ->check(CLI::IsMember(std::vector<std::string>{kRigParts.begin(), kRigParts.end()}));
   command->footer(
-      "Without a rig.toml the calibration begins from images of a mirror, or from bearings. Each subcommand finds out "
+      "Without a rig.toml the calibration begins from images of a mirror or of lamps, or from bearings. Each "
+      "subcommand finds out "
       "more\nabout one part of the rig.\nExit codes: 0 done, 1 a file could not be written, or there is no mirror, 2 "
       "wrong use or input, or the drive cannot tell.");
   command->callback([command, options] {

@@ -15,6 +15,7 @@
 #include "settings/rig.hpp"
 #include "slam/camera/make_camera.hpp"
 #include "tools/azimuth/calibrate_chessboard.hpp"
+#include "tools/azimuth/calibrate_optics.hpp"
 #include "tools/azimuth/command.hpp"
 #include "tools/azimuth/output_path.hpp"
 #include "tools/azimuth/recorded_drive.hpp"
@@ -70,23 +71,6 @@ void print_found(const FisheyeCalibration& found, const FisheyeRequest& request)
       100.0 * sigma(solution, kScaleTurn));
 }
 
-void print_fit(const Run& run, const FisheyeCalibration& found) {
-  const LensSolution& solution = found.solution;
-  fmt::print("drive       {} images, {} lamps, {} sightings, {:.0f} % of them fit\n", run.frames.size(),
-             solution.lamps.size(), found.drive.sightings.size(), 100.0 * solution.fitting());
-  fmt::print(
-      "residual    {:.3f} px (root of the mean square of those that fit), {:.1f} times what was claimed of lamps\n",
-      solution.rms_px(), std::sqrt(solution.unit_variance));
-}
-
-void draw(const Run& run, const FisheyeCalibration& found, const std::filesystem::path& file) {
-  RunImages images(run);
-  const ImageView image = images.pixels(run.frames.size() / 2, PixelFormat::gray8);
-  if (image.bytes.empty()) fail(images.problem());
-  PlotCanvas picture = lens_picture(image, found.drive, found.solution);
-  if (const auto problem = picture.write(file)) fail(file.string() + ": " + *problem);
-}
-
 void calibrate_fisheye_by_lamps(FisheyeOptions options) {
   if (options.chessboard.images.size() != 1)
     refuse("one RUN at a time, unless images of a chessboard are given: --chessboard COLUMNSxROWS");
@@ -99,11 +83,12 @@ void calibrate_fisheye_by_lamps(FisheyeOptions options) {
   std::string problem;
   const auto found = calibrate_fisheye(run, *rig, configuration->perception.lamps, options.request, problem);
   if (!found) refuse(options.run.string() + ": " + problem);
-  print_fit(run, *found);
-  print_found(*found, options.request);
+  print_fisheye(run, *found, options.request);
   if (!options.outputs.rig.empty())
     write_rig(found->rig, "# Made by azimuth calibrate fisheye from " + run.name + ".\n", options.outputs.rig);
-  if (!options.outputs.picture.empty()) draw(run, *found, options.outputs.picture);
+  if (options.outputs.picture.empty()) return;
+  if (const auto unwritten = fisheye_picture(run, *found).write(options.outputs.picture))
+    fail(options.outputs.picture.string() + ": " + *unwritten);
 }
 
 struct OcamOptions {
@@ -194,6 +179,23 @@ void add_chessboard_options(CLI::App& command, ChessboardOptions& options) {
 }
 
 }  // namespace
+
+void print_fisheye(const Run& run, const FisheyeCalibration& found, const FisheyeRequest& request) {
+  const LensSolution& solution = found.solution;
+  fmt::print("drive       {} images, {} lamps, {} sightings, {:.0f} % of them fit\n", run.frames.size(),
+             solution.lamps.size(), found.drive.sightings.size(), 100.0 * solution.fitting());
+  fmt::print(
+      "residual    {:.3f} px (root of the mean square of those that fit), {:.1f} times what was claimed of lamps\n",
+      solution.rms_px(), std::sqrt(solution.unit_variance));
+  print_found(found, request);
+}
+
+PlotCanvas fisheye_picture(const Run& run, const FisheyeCalibration& found) {
+  RunImages images(run);
+  const ImageView image = images.pixels(run.frames.size() / 2, PixelFormat::gray8);
+  if (image.bytes.empty()) fail(images.problem());
+  return lens_picture(image, found.drive, found.solution);
+}
 
 void add_calibrate_fisheye_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(

@@ -9,7 +9,7 @@
 
 #include "settings/rig.hpp"
 #include "slam/camera/make_camera.hpp"
-#include "tools/azimuth/calibrate_mirror.hpp"
+#include "tools/azimuth/calibrate_optics.hpp"
 #include "tools/azimuth/command.hpp"
 #include "tools/azimuth/output_path.hpp"
 #include "tools/calibrate/front_end_choice.hpp"

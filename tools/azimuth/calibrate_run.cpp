@@ -11,7 +11,7 @@
 
 #include "settings/rig.hpp"
 #include "slam/geometry/angle.hpp"
-#include "tools/azimuth/calibrate_mirror.hpp"
+#include "tools/azimuth/calibrate_optics.hpp"
 #include "tools/azimuth/command.hpp"
 #include "tools/azimuth/progress_bar.hpp"
 #include "tools/azimuth/told_by_drive.hpp"
@@ -32,24 +32,49 @@ struct Start {
   Rig rig;
   std::string rig_file = {};                   ///< empty: the run has no rig
   std::optional<MirrorSearch> by_images = {};  ///< the images gave the camera's model, since the run has no rig
+  std::optional<FisheyeCalibration> by_lamps =
+      {};  ///< of a camera that looks up at lamps: there is nothing else to find
 };
 
-Start starting_rig(const ReplayOptions& options) {
-  LogOptions log = options.log;
-  log.rig_may_come_later = true;
-  const Run run = load_run_or_refuse(options.run, log);
+LampSettings lamp_settings(const ReplayOptions& options) {
+  FileResult<Configuration> configuration = read_configuration_file(options.config, options.overrides);
+  if (!configuration) refuse(configuration.error());
+  return configuration->perception.lamps;
+}
+
+Start start_below_lamps(const ReplayOptions& options, const Run& run, Rig rig) {
+  std::string problem;
+  auto found = calibrate_fisheye(run, rig, lamp_settings(options), {}, problem);
+  if (!found) refuse(options.run.string() + ": " + problem);
+  return {.rig = std::move(rig), .rig_file = run.rig_file, .by_lamps = std::move(found)};
+}
+
+/// The images show a mirror, or lamps above a fisheye.
+Start start_by_images(const ReplayOptions& options, const Run& run, const OdometryRig& odometry) {
+  try {
+    RigByMirror found = rig_by_mirror(options.run, options.quiet);
+    return {.rig = std::move(found.rig), .by_images = std::move(found.search)};
+  } catch (const CommandError& no_mirror) {
+    if (no_mirror.code != kFailure) throw;
+    std::string problem;
+    auto found = calibrate_unknown_fisheye(run, odometry, lamp_settings(options), problem);
+    if (!found) fail(no_mirror.message + "; nor a fisheye below lamps: " + problem);
+    return {.rig = found->rig, .by_lamps = std::move(found)};
+  }
+}
+
+Start starting_rig(const ReplayOptions& options, const Run& run) {
   if (!run.rig_toml.empty()) {
     FileResult<Rig> read = read_rig(run.rig_toml, run.rig_file);
     if (!read) refuse(read.error());
+    if (read->front_end == FrontEnd::lamps && !run.frames.empty())
+      return start_below_lamps(options, run, *std::move(read));
     return {*std::move(read), run.rig_file};
   }
-  if (!run.frames.empty()) {
-    RigByMirror found = rig_by_mirror(options.run, options.quiet);
-    return {.rig = std::move(found.rig), .by_images = std::move(found.search)};
-  }
-  const auto is_named = [](const Bearing& bearing) { return bearing.identity != kUnknownIdentity; };
   Rig rig;
   rig.odometry.lambda_drift_rad2_per_m = kUnknownDrift_rad2_per_m;
+  if (!run.frames.empty()) return start_by_images(options, run, rig.odometry);
+  const auto is_named = [](const Bearing& bearing) { return bearing.identity != kUnknownIdentity; };
   rig.camera.identities = std::ranges::any_of(
       run.bearings, [&](const BearingSet& set) { return std::ranges::any_of(set.bearings, is_named); });
   return {rig};
@@ -216,9 +241,9 @@ class PageOutput {
         "has, which is safe.",
         drawn_residuals(residuals_of(recorded, found, rig), PlotFormat::svg), PlotFormat::svg);
   }
-  void write(const RecordedDrive& recorded, const ToldByDrive& told_by_drive, const std::string& rig) {
+  void write(const Run& run, const ToldByDrive& told_by_drive, const std::string& rig) {
     if (!is_wanted()) return;
-    page_.run = recorded.setup.run.name;
+    page_.run = run.name;
     page_.made_by = "azimuth " AZIMUTH_VERSION;
     page_.found = told_by_drive.rows();
     page_.untold = told_by_drive.untold();
@@ -243,12 +268,65 @@ FoundValue row_of(const MirrorSearch& search) {
           .judgement = fmt::format("from {} image{}, before the drive", search.images, search.images == 1 ? "" : "s")};
 }
 
+/// Lamps tell the lens, the camera's heading and its tilt at once.
+void calibrate_by_lamps(const RunCalibrationOptions& options, const Run& run, const Start& start) {
+  if (!options.only.empty()) refuse("--only: below lamps, lens and heading are found at once");
+  const std::filesystem::path& picture = options.outputs.picture;
+  if (!picture.empty() && plot_format(picture) != PlotFormat::png)
+    refuse(picture.string() + ": the name of a picture of pixels must end in .png");
+  const FisheyeCalibration& found = *start.by_lamps;
+  if (!options.run.quiet) print_fisheye(run, found, {});
+  const std::string text = "# Made by azimuth calibrate from " + run.name + ".\n\n" + rig_text(found.rig);
+  if (!options.outputs.rig.empty()) write_rig_text(text, options.outputs.rig);
+
+  const bool has_rig = !start.rig_file.empty();
+  ToldByDrive told_by_drive(true, {}, has_rig);
+  const LensSolution& solution = found.solution;
+  const auto tell = [&](const char* part, const char* key, double said, double value, int which) {
+    told_by_drive.also_found({.part = part,
+                              .key = key,
+                              .said = has_rig ? fmt::format("{:.4f}", said) : "",
+                              .found = fmt::format("{:.4f}", value),
+                              .two_sigma = fmt::format("{:.4f}", 2.0 * std::sqrt(solution.covariance(which, which))),
+                              .is_replaced = true,
+                              .judgement = "found with the lens"});
+  };
+  const CameraRig &was = start.rig.camera, &is = found.rig.camera;
+  if (is.image.centre_px)
+    told_by_drive.also_found(
+        {.part = "lens",
+         .key = "camera.centre_px",
+         .found = fmt::format("[{:.2f}, {:.2f}]", is.image.centre_px->at(0), is.image.centre_px->at(1)),
+         .two_sigma = fmt::format("{:.2f}", 2.0 * std::sqrt(solution.covariance(0, 0))),
+         .is_replaced = true,
+         .judgement = fmt::format("{} lamps, {:.0f} % of the sightings fit", solution.lamps.size(),
+                                  100.0 * solution.fitting())});
+  tell("heading", "camera.azimuth_offset_rad", was.image.azimuth_offset_rad, is.image.azimuth_offset_rad, 6);
+  if (found.tilt_found) {
+    tell("tilt", "camera.roll_rad", was.roll_rad, is.roll_rad, kRoll);
+    tell("tilt", "camera.pitch_rad", was.pitch_rad, is.pitch_rad, kPitch);
+  }
+  told_by_drive.cannot_tell("height", "how high lamps are; azimuth calibrate fisheye --lamp-height METRES takes it");
+  PageOutput page(options, start);
+  if (page.is_wanted())
+    page.add("The lens on the lamps",
+             "Centre, circles of equal angle from the axis, and by how much sightings of lamps miss the lens.",
+             fisheye_picture(run, found), PlotFormat::png);
+  page.write(run, told_by_drive, text);
+  if (picture.empty()) return;
+  if (const auto problem = fisheye_picture(run, found).write(picture)) fail(picture.string() + ": " + *problem);
+}
+
 }  // namespace
 
 void calibrate_by_run(const RunCalibrationOptions& options) {
   check_outputs(options.outputs);
   const std::string run = options.run.run.string();
-  Start start = starting_rig(options.run);
+  LogOptions log = options.run.log;
+  log.rig_may_come_later = true;
+  const Run images = load_run_or_refuse(options.run.run, log);
+  Start start = starting_rig(options.run, images);
+  if (start.by_lamps) return calibrate_by_lamps(options, images, start);
   const Rig said = start.rig;
   RecordedDrive recorded = recorded_drive(options.run, NamedBy::eye, start.rig);
   ToldByDrive told_by_drive(options.run.quiet, options.only, !start.rig_file.empty());
@@ -257,7 +335,7 @@ void calibrate_by_run(const RunCalibrationOptions& options) {
   const auto write = [&](const Rig& rig) {
     const std::string text = written_rig(rig, told_by_drive, recorded);
     if (!options.outputs.rig.empty()) write_rig_text(text, options.outputs.rig);
-    page.write(recorded, told_by_drive, text);
+    page.write(recorded.setup.run, told_by_drive, text);
   };
   if (const std::string why = why_cannot_tell(recorded.drive, recorded.setup.rig); !why.empty()) {
     if (!start.by_images) refuse(run + ": " + why);

@@ -19,9 +19,11 @@ struct RunCalibrationOptions {
   std::vector<std::string> only;  ///< parts from kRigParts; empty: all parts
 };
 
-/// Calibrates the run's rig. A run without a rig begins from a mirror found in its images, or from its bearings. Prints
-/// the values that were found and the parts that the drive cannot tell. All parts are always fitted together, but only
-/// the requested parts change in the rig. Writes the outputs that are asked for. Refuses drives that tell nothing.
+/// Calibrates the run's rig. A run without a rig begins from its images, of a mirror or of
+/// lamps above a fisheye, or from its bearings. Below lamps the lens and the camera's heading are all that is found.
+/// Prints the values that were found and the parts that the drive cannot tell. All parts are always fitted together,
+/// but only the requested parts change in the rig. Writes the outputs that are asked for. Refuses drives that tell
+/// nothing.
 void calibrate_by_run(const RunCalibrationOptions& options);
 
 }  // namespace azimuth

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/visible.hpp"
-#include "tools/page/base64.hpp"
 #include "tools/page/html_page.hpp"
 
 namespace azimuth {

@@ -109,18 +109,37 @@ std::vector<SeenLamps> look(const Run& run, const CameraRig& rig, const LampSett
   return all;
 }
 
+struct LikelyHeight {
+  double height_m = 0.0;
+  double cost = std::numeric_limits<double>::infinity();  ///< of following lamps of this height
+};
+
 /// Estimates an unmeasured lamp height: tries a range of heights and returns the one with the least tracking cost.
-double likely_height_m(const FisheyeStart& start, const std::vector<SeenLamps>& images) {
+LikelyHeight likely_height(const FisheyeStart& start, const std::vector<SeenLamps>& images) {
   constexpr double kLowest_m = 0.8, kHighest_m = 20.0, kRatio = 1.2;
-  double best_m = kLowest_m, least = std::numeric_limits<double>::infinity();
+  LikelyHeight best{.height_m = kLowest_m};
   for (double height_m = kLowest_m; height_m < kHighest_m; height_m *= kRatio) {
     const double cost = map_lamps(start.motions, images, start.lens, height_m, kRounds.front()).cost;
-    if (cost < least) {
-      least = cost;
-      best_m = height_m;
-    }
+    if (cost < best.cost) best = {height_m, cost};
   }
-  return best_m;
+  return best;
+}
+
+/// Turns the camera as the lamps tell: by azimuths in either sense, from any of eight directions.
+void turn_camera(const FisheyeStart& start, const std::vector<SeenLamps>& images, ImageRig& camera) {
+  constexpr int kDirections = 8;
+  double least = std::numeric_limits<double>::infinity();
+  for (const int azimuth_direction : {-1, 1})
+    for (int i = 0; i < kDirections; ++i) {
+      FisheyeStart turned = start;
+      turned.lens.axes.azimuth_direction = azimuth_direction;
+      turned.lens.axes.azimuth_offset_rad = wrap(2.0 * kPi * i / kDirections);
+      if (const double cost = likely_height(turned, images).cost; cost < least) {
+        least = cost;
+        camera.azimuth_direction = azimuth_direction;
+        camera.azimuth_offset_rad = turned.lens.axes.azimuth_offset_rad;
+      }
+    }
 }
 
 double theta_seen(const LensDrive& drive, const LensSolution& solution) {
@@ -240,7 +259,7 @@ std::optional<FisheyeCalibration> calibrate_fisheye(const Run& run, const Rig& r
   for (const TrackingGate& trust : kRounds) {
     const std::vector<SeenLamps> images = look(run, eye, settings, problem);
     if (!problem.empty()) return std::nullopt;
-    if (height_m == 0.0) height_m = likely_height_m(*start, images);
+    if (height_m == 0.0) height_m = likely_height(*start, images).height_m;
     LensFitStart map = map_lamps(start->motions, images, start->lens, height_m, trust);
     problem = why_cannot_tell(map);
     if (!problem.empty()) return std::nullopt;
@@ -264,6 +283,33 @@ std::optional<FisheyeCalibration> calibrate_fisheye(const Run& run, const Rig& r
   found.rig = rig;
   found.rig.camera = with_lens(rig.camera, start->lens, found.theta_max_rad);
   return found;
+}
+
+std::optional<FisheyeCalibration> calibrate_unknown_fisheye(const Run& run, const OdometryRig& odometry,
+                                                            const LampSettings& settings, std::string& problem) {
+  FisheyeRequest half_of_the_world;
+  half_of_the_world.field_of_view_rad = kPi;
+  RunImages first(run);
+  if (first.count() == 0) {
+    problem = "has no images";
+    return std::nullopt;
+  }
+  const ImageView image = first.pixels(0, PixelFormat::gray8);
+  if (image.bytes.empty()) {
+    problem = first.problem();
+    return std::nullopt;
+  }
+  Rig rig;
+  rig.odometry = odometry;
+  rig.front_end = FrontEnd::lamps;
+  rig.camera.image.width_px = image.format.width_px;
+  rig.camera.image.height_px = image.format.height_px;
+  const auto start = fisheye_start(run, rig, half_of_the_world, problem);
+  if (!start) return std::nullopt;
+  const std::vector<SeenLamps> images = look(run, start->rig.camera, settings, problem);
+  if (!problem.empty()) return std::nullopt;
+  turn_camera(*start, images, rig.camera.image);
+  return calibrate_fisheye(run, rig, settings, half_of_the_world, problem);
 }
 
 }  // namespace azimuth

@@ -47,6 +47,12 @@ struct FisheyeCalibration {
 std::optional<FisheyeCalibration> calibrate_fisheye(const Run& run, const Rig& rig, const LampSettings& settings,
                                                     const FisheyeRequest& request, std::string& problem);
 
+/// The same for a run of which only `odometry` is known. The lens begins equidistant and sees half of the world. Of the
+/// ways in which the camera may be turned on the robot, in steps of 45 degrees, the one through which lamps can be
+/// followed best is taken.
+std::optional<FisheyeCalibration> calibrate_unknown_fisheye(const Run& run, const OdometryRig& odometry,
+                                                            const LampSettings& settings, std::string& problem);
+
 /// The reason why the lamp observations, or the solution, do not determine the lens; empty if they do.
 std::string why_cannot_tell(const LensFitStart& map);
 std::string why_cannot_tell(const LensSolution& solution, double theta_seen_rad);

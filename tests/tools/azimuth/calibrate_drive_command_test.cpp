@@ -245,6 +245,27 @@ TEST_F(CalibrateDrive, ImagesTellTheOpticsFirst) {
   EXPECT_TRUE(rig->camera.image.centre_px);
 }
 
+// Half a minute below lamps: nothing says that the camera looks up, nor how it is turned.
+TEST_F(CalibrateDrive, LampsTellAFisheyeOfWhichNothingIsKnown) {
+  const std::string run = scratch_ / "lamps";
+  std::filesystem::copy(shipped_run().parent_path() / "lamps", run, std::filesystem::copy_options::recursive);
+  const Rig truth = *read_rig_file(run + "/rig.toml");
+  std::filesystem::remove(run + "/rig.toml");
+  const Outcome outcome = azimuth({"calibrate", run, "--out", rig_, "--html", page_});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("heading     camera.azimuth_offset_rad = "));
+  EXPECT_THAT(file_bytes(page_), HasSubstr("<code>camera.azimuth_offset_rad</code>"));
+  const auto rig = read_rig_file(rig_);
+  ASSERT_TRUE(rig) << text(rig.error());
+  EXPECT_EQ(rig->front_end, FrontEnd::lamps);
+  const ImageRig &found = rig->camera.image, &right = truth.camera.image;
+  EXPECT_EQ(found.azimuth_direction, right.azimuth_direction);
+  EXPECT_NEAR(wrap(found.azimuth_offset_rad - right.azimuth_offset_rad), 0.0, 0.01);
+  EXPECT_NEAR(found.centre_px->at(0), right.centre_px->at(0), 1.0);
+  EXPECT_EQ(azimuth({"calibrate", run, "--rig", rig_}).code, 0) << "a rig to begin with";
+  EXPECT_EQ(azimuth({"calibrate", run, "--rig", rig_, "--only", "lag"}).code, 2);
+}
+
 TEST_F(CalibrateDrive, ARunOfNoUseSaysWhy) {
   EXPECT_THAT(azimuth({"calibrate"}).err, HasSubstr("RUN or a subcommand"));
   EXPECT_EQ(azimuth({"calibrate"}).code, 2);

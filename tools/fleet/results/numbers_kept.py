@@ -11,6 +11,7 @@ PARTS = {  # paths in a report
     "rmse_m": ("pose", "rmse_m"),
     "mean_m": ("pose", "mean_m"),
     "anees": ("pose", "anees"),
+    "anees_tracking": ("pose", "anees_tracking"),
     "odometry_m": ("odometry_only", "rmse_m"),
     "odometry_mean_m": ("odometry_only", "mean_m"),
     "odometry_raw_m": ("odometry_raw", "rmse_m"),

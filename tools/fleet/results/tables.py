@@ -4,11 +4,13 @@ from statistics import mean
 
 MRCLAM = [f"data/mrclam6-robot{robot}" for robot in (1, 2, 3)]
 COURSE, LAB, ALIKE, OFFICE, HALL = "data/course-301", "runs/lab", "runs/alike", "data/office-a", "data/hall-a"
+NEWCOMERS = {"data/lostwoods-c": ("Lost in the Woods, part C", "the laser is 4.6° askew"), "data/mrclam9-robot3": ("MRCLAM 9, robot 3", "turns are 35 % off"),
+             "data/dlr-circles-a": ("DLR circles, part A", "distances are 7 to 8 % off"), "data/victoria-a": ("Victoria Park, 386 s", "one tree or none at a time")}
 LAB_RUNS, HALL_RUNS = "data/lab-runs/", "data/hall-runs/"     # prefixes of the names of groups of runs
 SEVERAL = {LAB_RUNS: "lab, {} recorded runs, mean", HALL_RUNS: "halls, 16 lamps, {} runs, mean"}     # {}: number of runs
 CALLED = {COURSE: "course-301", LAB: "lab, three laps, `runs/lab`", ALIKE: "lab, one lap, `runs/alike`", HALL: "hall, 14 lamps, images (ray-traced)",
           "runs/lamps": "half a minute below 32 lamps, images, `runs/lamps`", "runs/mirror": "37 images of a mirror camera, 24 cylinders, `runs/mirror`"}
-CALLED |= {run: f"MRCLAM 6, robot {run[-1]}" for run in MRCLAM} | SEVERAL
+CALLED |= {run: f"MRCLAM 6, robot {run[-1]}" for run in MRCLAM} | {run: called for run, (called, _) in NEWCOMERS.items()} | SEVERAL
 
 
 class Numbers:
@@ -86,6 +88,15 @@ def smoother(of):
                    ratio(found.mean(run, "hindsight_anees"))] for run in (*MRCLAM, COURSE, LAB_RUNS, LAB)])
 
 
+def newcomers(of):
+    rows = []
+    for variant, which, names in (("smoother", NEWCOMERS, ""), ("smoother-no-names", ["data/lostwoods-c"], ", without names")):
+        found = of[variant]
+        rows += [[found.called(run) + names, NEWCOMERS[run][1], metres(found.mean(run, "odometry_m")), with_anees(of["ekf"], run) if not names else "",
+                  with_anees(found, run, anees="anees_tracking"), with_anees(found, run, "hindsight_m", "hindsight_anees"), f"{100 * found.mean(run, 'tracking'):.0f} %"] for run in which]
+    return table(["drive", "what the rig does not say", "odometry", "EKF (ANEES)", "smoother live (ANEES while `tracking`)", "in hindsight (ANEES)", "`tracking`"], rows)
+
+
 def no_names(of):
     ekf, smooth = of["ekf-no-names"], of["smoother-no-names"]
     rows = []
@@ -142,7 +153,7 @@ def readme(of):
         [f"simulated lab, 36 stops, 24 landmarks, {len(of['ekf'].all(LAB_RUNS, 'mean_m'))} drives, mean error", two("ekf", LAB_RUNS, "odometry_mean_m"), two("ekf", LAB_RUNS, "mean_m")]])
 
 
-TABLES = {table.__name__: table for table in (bearings, smoother, no_names, shipped, images, lamps, readme)}
+TABLES = {table.__name__: table for table in (bearings, smoother, newcomers, no_names, shipped, images, lamps, readme)}
 
 
 def made_of(numbers):

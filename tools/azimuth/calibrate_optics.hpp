@@ -1,11 +1,13 @@
 #pragma once
-// The rig of azimuth calibrate mirror, for other calibrations that begin with it.
+// The optics that azimuth calibrate mirror and fisheye find, for azimuth calibrate RUN, which begins with them.
 
 #include <filesystem>
 
 #include "slam/estimator/rig.hpp"
 #include "slam/perception/calibration/mirror_finder.hpp"
-#include "tools/calibrate/read_image.hpp"
+#include "tools/calibrate/image_files.hpp"
+#include "tools/lens_fit/fisheye_calibration.hpp"
+#include "tools/plot/canvas.hpp"
 
 namespace azimuth {
 
@@ -25,5 +27,10 @@ struct RigByMirror {
 /// heading up in the image, and the one of the two front ends that recognises more in the images. Refuses and fails as
 /// the command does.
 RigByMirror rig_by_mirror(const std::filesystem::path& run, bool quiet);
+
+/// Prints the lens that lamps gave, and how well it fits.
+void print_fisheye(const Run& run, const FisheyeCalibration& found, const FisheyeRequest& request);
+/// Centre, circles and residuals on the middle image of the run. Fails if the image cannot be read.
+PlotCanvas fisheye_picture(const Run& run, const FisheyeCalibration& found);
 
 }  // namespace azimuth
