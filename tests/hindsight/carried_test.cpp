@@ -1,12 +1,12 @@
 // Evidence that a robot is being carried: landmarks seen a moment ago that are missing, and bearings that move while
 // the wheels stand still.
 
+#include "slam/hindsight/carried.hpp"
+
 #include <gtest/gtest.h>
 #include <vector>
 
 #include "slam/geometry/angle.hpp"
-#include "slam/hindsight/names_seen.hpp"
-#include "slam/hindsight/rest_watch.hpp"
 
 namespace azimuth {
 namespace {

@@ -1,12 +1,11 @@
 // The covariances of the landmarks of a large map, which are computed in turn.
 
-#include "slam/hindsight/landmark_covariances.hpp"
-
 #include <cmath>
 #include <gtest/gtest.h>
 #include <vector>
 
 #include "slam/geometry/index.hpp"
+#include "slam/hindsight/smoother_estimator.hpp"
 
 namespace azimuth {
 namespace {
