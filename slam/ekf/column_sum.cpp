@@ -1,6 +1,5 @@
 #include "slam/ekf/column_sum.hpp"
 
-#include "slam/ekf/column_sum_avx2.hpp"
 #include "slam/ekf/column_sum_loops.hpp"
 #include "slam/geometry/index.hpp"
 

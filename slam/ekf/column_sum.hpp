@@ -18,4 +18,9 @@ struct ScaledColumns {
 /// is added, so the result is the same to the last bit on every processor.
 void add_columns(std::span<const ScaledColumns> parts, Eigen::Index size, double* out);
 
+// The kernel for processors with AVX2.
+namespace avx2 {
+void add_columns(const ScaledColumns* parts, Eigen::Index count, Eigen::Index size, double* out);
+}
+
 }  // namespace azimuth

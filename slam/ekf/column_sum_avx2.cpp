@@ -1,7 +1,7 @@
 // Compiled with -mavx2 (CMakeLists.txt) and without FMA, which would round differently. Called only on processors with
 // AVX2.
 
-#include "slam/ekf/column_sum_avx2.hpp"
+#include "slam/ekf/column_sum.hpp"
 
 #define AZIMUTH_LANES 4
 #include "slam/ekf/column_sum_loops.hpp"

@@ -3,8 +3,6 @@
 
 #include "slam/ekf/rank_update.hpp"
 
-#include "slam/ekf/rank_update_avx2.hpp"
-#include "slam/ekf/rank_update_avx512.hpp"
 #include "slam/ekf/rank_update_tile.hpp"
 
 namespace azimuth {

@@ -37,4 +37,18 @@ void subtract_symmetric_product(LowerTriangle A, SymmetricProduct product);
 void whiten_columns(double* W, Eigen::Index stride, Eigen::Index size, const double* L, Eigen::Index L_stride,
                     Eigen::Index columns);
 
+// The kernels for processors with AVX2 and FMA.
+namespace avx2 {
+void subtract_symmetric_product(LowerTriangle A, SymmetricProduct product);
+void whiten_columns(double* W, Eigen::Index stride, Eigen::Index size, const double* L, Eigen::Index L_stride,
+                    Eigen::Index columns);
+}  // namespace avx2
+
+// The kernels for processors with AVX-512F.
+namespace avx512 {
+void subtract_symmetric_product(LowerTriangle A, SymmetricProduct product);
+void whiten_columns(double* W, Eigen::Index stride, Eigen::Index size, const double* L, Eigen::Index L_stride,
+                    Eigen::Index columns);
+}  // namespace avx512
+
 }  // namespace azimuth

@@ -1,6 +1,6 @@
 // Compiled with -mavx2 -mfma (CMakeLists.txt). Called only on processors with both.
 
-#include "slam/ekf/rank_update_avx2.hpp"
+#include "slam/ekf/rank_update.hpp"
 
 #define AZIMUTH_LANES 4
 #include "slam/ekf/rank_update_tile.hpp"

@@ -1,6 +1,6 @@
 // Compiled with -mavx512f (CMakeLists.txt). Called only on processors with AVX-512F.
 
-#include "slam/ekf/rank_update_avx512.hpp"
+#include "slam/ekf/rank_update.hpp"
 
 #define AZIMUTH_LANES 8
 #include "slam/ekf/rank_update_tile.hpp"

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <vector>
 
-#include "slam/ekf/column_sum_avx2.hpp"
 #include "slam/ekf/column_sum_loops.hpp"  // the baseline path, which processors with AVX2 do not use
 #include "slam/geometry/index.hpp"
 #include "tests/geometry/random_draws.hpp"

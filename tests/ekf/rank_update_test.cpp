@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 #include <vector>
 
-#include "slam/ekf/rank_update_avx2.hpp"
-#include "slam/ekf/rank_update_avx512.hpp"
 #include "slam/ekf/rank_update_tile.hpp"  // the baseline path, which processors with AVX2 do not use
 #include "tests/geometry/random_draws.hpp"
 

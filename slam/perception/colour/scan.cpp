@@ -1,7 +1,6 @@
 #include "slam/perception/colour/scan.hpp"
 
 #include "slam/perception/colour/class_table.hpp"
-#include "slam/perception/colour/scan_avx2.hpp"
 #include "slam/perception/colour/scan_loops.hpp"
 
 namespace azimuth {

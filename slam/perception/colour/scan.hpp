@@ -44,4 +44,9 @@ int pixels_per_sample(PixelFormat pixels);
 /// The runs are the same on every processor.
 std::size_t find_runs(const Scan& scan, std::span<const VisibleSpan> spans, std::span<ColourRun> out);
 
+// The AVX2 variant of find_runs(); only for processors with AVX2.
+namespace avx2 {
+std::size_t find_runs(const Scan& scan, const VisibleSpan* spans, std::size_t count, ColourRun* out, std::size_t room);
+}
+
 }  // namespace azimuth

@@ -1,6 +1,6 @@
 // Compiled with -mavx2 (CMakeLists.txt); called only on processors with AVX2.
 
-#include "slam/perception/colour/scan_avx2.hpp"
+#include "slam/perception/colour/scan.hpp"
 
 #define AZIMUTH_BLOCK_BYTES 32
 #include "slam/perception/colour/scan_loops.hpp"
