@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "slam/perception/colour/class_table.hpp"
 #include "slam/perception/colour/colour_settings.hpp"
-#include "slam/perception/colour/hsv.hpp"
 #include "slam/sample/image.hpp"
 
 namespace azimuth {

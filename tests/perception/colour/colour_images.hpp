@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "slam/geometry/angle.hpp"
-#include "slam/perception/colour/hsv.hpp"
+#include "slam/perception/colour/class_table.hpp"
 #include "slam/sample/image.hpp"
 
 namespace azimuth::test {

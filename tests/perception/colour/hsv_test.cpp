@@ -1,9 +1,9 @@
-#include "slam/perception/colour/hsv.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <random>
+
+#include "slam/perception/colour/class_table.hpp"
 
 namespace azimuth {
 namespace {
