@@ -23,7 +23,7 @@ struct LampEkfModel {
   double sigma_tilt_rad = 0.0;  ///< Initial standard deviation of roll and of pitch, as states; 0: exact
   /// Initial mean of the camera errors, laid out as CameraErrors::mean; the centre is given as (u, v).
   Eigen::Vector4d camera_errors = Eigen::Vector4d::Zero();
-  /// Charge directions with the terms that a linear update leaves out (lamp_curvature.hpp).
+  /// Charge directions with the terms that a linear update leaves out (lens_curvature(), offset_curvature()).
   bool charge_curvature = true;
   /// Standard deviations of the rig's considered constants (considered_rig.hpp); 0: exact.
   Considered sigma_considered = Considered::Zero();
@@ -151,5 +151,31 @@ class LampEkf {
   Index errors_size_ = 0;  // camera entries from kCameraEntry on: 0, 2 (centre) or 4 (centre, then tilt)
   std::vector<ObservationRow> rows_;
 };
+
+// Noise charged for the second-order terms that a linear update of a lamp's direction leaves out; see curvature.hpp for
+// the reason.
+//
+// The lamp. In the plane tangent to the sphere at the measured direction, M = (m, 1) appears at d_k = (axis_k . M) /
+// (towards . M). For an error dM of M and its relative change in length s = towards . dM / |M|, the error of d_k is
+// d_k - d_k s, of which the linear update models d_k. m itself (lamp_model.hpp) has the second-order terms
+//   for a point, with dz the relative error of its height:  -dm dz, so that s grows by dz
+//   for an inverse height:                                  dw R^T (da - dp)
+//
+// The lens. At the image radius r with the zenith angle t, let b = dt/dr, and let a = sin(t) / r be the factor from a
+// step across to an angle. An error (x across, y along) [px] of the centre moves the direction by (a x, b y), and in
+// second order by
+//   across  (b cos t - a) / r x y,    along  (b - a cos t) / (2 r) x^2
+// Both vanish in the middle of the image.
+//
+// The offset g of a new lamp, stored from its first observation: for an error (c, l) of the direction, the error of the
+// offset is the linear term times 1 + l tan t.
+
+/// The row of by_offset . m for a predicted lamp.
+ObservationRow along(const Eigen::RowVector2d& by_offset, const PredictedLamp& predicted);
+
+/// Variances of (across, along) [rad^2]: lens_curvature() for an uncertain centre, offset_curvature() for all camera
+/// errors. `covariance` is laid out as in CameraErrors.
+Eigen::Vector2d lens_curvature(const LampSeen& seen, const Eigen::Matrix4d& covariance);
+Eigen::Vector2d offset_curvature(const LampSeen& seen, const Eigen::Matrix4d& covariance);
 
 }  // namespace azimuth

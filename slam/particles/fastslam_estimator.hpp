@@ -43,7 +43,6 @@ class FastSlamEstimator final : public Estimator {
   const FastSlam& filter() const { return filter_; }
 
  private:
-  // Defined in fastslam_saved_map.cpp.
   void start_from(const MapStart& start);
   void begin_at(const StartPose& pose);
   void begin_search(const std::optional<PositionPrior>& within);

@@ -9,7 +9,6 @@
 
 #include "slam/camera/camera_model.hpp"
 #include "slam/ekf/bearing_ekf.hpp"
-#include "slam/ekf/lamp_curvature.hpp"
 #include "slam/ekf/lamp_ekf.hpp"
 #include "tests/geometry/numeric_jacobian.hpp"
 #include "tests/geometry/random_draws.hpp"
