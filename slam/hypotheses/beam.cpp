@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include "slam/hypotheses/scene_by_experience.hpp"
+#include "slam/hypotheses/scene.hpp"
 
 namespace azimuth {
 namespace {

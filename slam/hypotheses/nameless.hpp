@@ -6,7 +6,7 @@
 
 #include "slam/geometry/motion.hpp"
 #include "slam/hypotheses/beam.hpp"
-#include "slam/hypotheses/drawn_maps.hpp"
+#include "slam/hypotheses/drawn_map.hpp"
 #include "slam/hypotheses/trust.hpp"
 #include "slam/sample/bearings.hpp"
 #include "slam/smoother/keyframe_limit.hpp"

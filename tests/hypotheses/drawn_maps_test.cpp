@@ -1,10 +1,9 @@
-#include "slam/hypotheses/drawn_maps.hpp"
-
 #include <cmath>
 #include <cstdio>
 #include <gtest/gtest.h>
 #include <numbers>
 
+#include "slam/hypotheses/drawn_map.hpp"
 #include "tests/hypotheses/nameless_world.hpp"
 #include "tests/support/threaded_workers.hpp"
 

@@ -6,7 +6,6 @@
 #include <random>
 
 #include "slam/hypotheses/conditioned_association.hpp"
-#include "slam/hypotheses/image_reading.hpp"
 #include "tests/hypotheses/known_but_for_heading.hpp"
 
 namespace azimuth {

@@ -1,10 +1,10 @@
-#include "slam/hypotheses/scene_by_experience.hpp"
-
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
 #include <random>
 #include <vector>
+
+#include "slam/hypotheses/scene.hpp"
 
 namespace azimuth {
 namespace {
