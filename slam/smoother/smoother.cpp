@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace azimuth {
 namespace {
@@ -19,6 +20,30 @@ constexpr int kTimesHalved = 2;
 // Fractions of sqrt(converged_below). Unknowns with a smaller pull (in standard deviations) or a smaller step (in
 // metres, radians or 1/m) stay as they are.
 constexpr double kNegligiblePull = 1e-5, kNegligibleStep = 3e-6;
+
+constexpr int kProbes = 4;
+constexpr double kFewestTold = 8.0;  // least redundancy for an estimate
+constexpr double kLeast = 0.1, kMost = 10.0;
+constexpr double kLeastShareTold = 1e-9;  // of the curvature; less is rounding
+
+/// Expected weighted squared residual of standard Gaussian noise within the scatter bound. It is below one, since the
+/// kernel also reduces the weight of a Gaussian's tails.
+double expected_chi2(RobustKernel kernel, double width) {
+  constexpr double kStep = 0.01;
+  const double end = std::sqrt(kScattersChi2);
+  double sum = 0.0, whole = 0.0;
+  for (double r = 0.5 * kStep; r < end; r += kStep) {
+    const double density = std::exp(-0.5 * r * r);
+    whole += density;
+    sum += density * kernel_value(kernel, width, r * r).weight * r * r;
+  }
+  return sum / whole;
+}
+
+Smoother::Noise noise_by(double chi2, double told) {
+  if (!(told > kFewestTold)) return {};
+  return {.ratio = std::clamp(std::sqrt(chi2 / told), kLeast, kMost), .told = told};
+}
 
 }  // namespace
 
@@ -200,6 +225,122 @@ bool Smoother::take_damped_step(double energy_before, int& tries) {
   }
   damping_ = 0.0;
   return false;
+}
+
+// Covariances of poses, landmarks and calibration, computed from the factor.
+
+/// The factor's unknowns of a pose are along the body's axes; R(heading) turns them into the map's axes.
+Eigen::MatrixXd Smoother::covariance(std::span<const Unknown> unknowns) const {
+  std::vector<Block> blocks;
+  Eigen::Index rows = 0;
+  for (const Unknown& unknown : unknowns) {
+    const auto* const pose = std::get_if<PoseOf>(&unknown);
+    blocks.push_back(pose != nullptr ? graph_.block_of_pose(pose->id)
+                                     : graph_.block_of_landmark(std::get<LandmarkOf>(unknown).id));
+    rows += graph_.size(blocks.back());
+  }
+  Eigen::MatrixXd to_map = Eigen::MatrixXd::Identity(rows, rows);
+  Eigen::Index row = 0;
+  for (std::size_t i = 0; i < unknowns.size(); ++i) {
+    if (const auto* const pose = std::get_if<PoseOf>(&unknowns[i]); pose != nullptr && graph_.size(blocks[i]) > 0)
+      to_map.block<2, 2>(row, row) = rotation(graph_.pose(pose->id).heading_rad);
+    row += graph_.size(blocks[i]);
+  }
+  return to_map * factor_.covariance(blocks, graph_) * to_map.transpose();
+}
+
+Eigen::Matrix3d Smoother::pose_covariance(PoseId id) const {
+  if (graph_.size(graph_.block_of_pose(id)) == 0) return Eigen::Matrix3d::Zero();
+  const Unknown pose = PoseOf{id};
+  return covariance({&pose, 1});
+}
+
+Eigen::Matrix<double, kCalibrations, kCalibrations> Smoother::calibration_covariance() const {
+  Eigen::Matrix<double, kCalibrations, kCalibrations> whole =
+      Eigen::Matrix<double, kCalibrations, kCalibrations>::Zero();
+  constexpr Block kBlock = BearingGraph::kCalibrationBlock;
+  if (graph_.size(kBlock) == 0) return whole;
+  const Eigen::MatrixXd unknown = factor_.covariance({&kBlock, 1}, graph_);
+  for (int i = 0; i < kCalibrations; ++i)
+    for (int j = 0; j < kCalibrations; ++j)
+      if (const int a = graph_.calibration_row(i), b = graph_.calibration_row(j); a >= 0 && b >= 0)
+        whole(i, j) = unknown(a, b);  // the block's rows are the first ones
+  return whole;
+}
+
+Eigen::Matrix2d Smoother::point_covariance(LandmarkId id) const {
+  const Unknown landmark = LandmarkOf{id};
+  const Eigen::Matrix2d by_chart = graph_.landmark(id).p_by_chart();
+  return by_chart * covariance({&landmark, 1}) * by_chart.transpose();
+}
+
+/// The graph estimates tangent = height * rho, where rho is the inverse distance; hence height = tangent / rho.
+Eigen::Matrix3d Smoother::point_covariance_with_height(LandmarkId id) const {
+  const std::vector<Block> blocks{graph_.block_of_landmark(id), graph_.block_of_height(id)};
+  const double rho_per_m = graph_.landmark(id).inverse_distance_per_m;
+  Eigen::Matrix3d to_point = Eigen::Matrix3d::Zero();
+  to_point.topLeftCorner<2, 2>() = graph_.landmark(id).p_by_chart();
+  to_point(2, 1) = -graph_.height_m(id) / rho_per_m;
+  to_point(2, 2) = 1.0 / rho_per_m;
+  return to_point * factor_.covariance(blocks, graph_) * to_point.transpose();
+}
+
+// Noise estimates from residuals by variance components (Foerstner 1979). The traces are estimated with random signs.
+
+/// Number of the residuals in `signed_sum` that the unknowns take up, estimated with random signs.
+template <typename SignedSum>
+double Smoother::taken_up(const SignedSum& signed_sum) const {
+  double taken = 0.0;
+  for (std::uint64_t seed = 0; seed < kProbes; ++seed) {
+    Eigen::VectorXd sum = signed_sum(seed);
+    factor_.forwards(sum);
+    taken += sum.squaredNorm() / kProbes;
+  }
+  return taken;
+}
+
+Smoother::Noise Smoother::bearing_noise() const {
+  const BearingGraph::Misfit misfit = graph_.misfit_of_bearings();
+  const double taken = taken_up([this](std::uint64_t seed) { return graph_.signed_sum_of_bearings(seed); });
+  return noise_by(misfit.chi2 / expected_chi2(settings_.kernel, settings_.kernel_width), misfit.residuals - taken);
+}
+
+Smoother::Noise Smoother::odometry_noise(int stride) const {
+  const BearingGraph::Misfit misfit = graph_.misfit_of_odometry(stride);
+  const double taken =
+      taken_up([this, stride](std::uint64_t seed) { return graph_.signed_sum_of_odometry(seed, stride); });
+  return noise_by(misfit.chi2, misfit.residuals - taken);
+}
+
+/// The unknowns follow the rig's errors; what they take up of the curvature tells nothing (Schur complement). It is
+/// nearly all of it, so the factor must be exact, and what is left of the gradient counts.
+RigEvidence<kCalibrations> Smoother::rig_evidence() const {
+  Smoother exact = *this;
+  exact.start_factor_anew();
+  exact.optimise(0);
+  BearingGraph::ByCalibration by = exact.graph_.by_calibration();
+  Eigen::VectorXd gradient = exact.graph_.gradient();
+  exact.factor_.forwards(gradient);
+  for (int i = 0; i < kCalibrations; ++i) {
+    if (!(by.curvature(i, i) > 0.0)) continue;
+    Eigen::VectorXd column = by.mixed.col(i);
+    exact.factor_.forwards(column);
+    by.mixed.col(i) = column;
+  }
+  RigEvidence<kCalibrations> evidence{.information = by.curvature - by.mixed.transpose() * by.mixed,
+                                      .pull = by.mixed.transpose() * gradient - by.slope};
+  for (int i = 0; i < kCalibrations; ++i) {
+    if (evidence.information(i, i) > kLeastShareTold * by.curvature(i, i)) continue;
+    evidence.information.row(i).setZero();
+    evidence.information.col(i).setZero();
+    evidence.pull[i] = 0.0;
+  }
+  return evidence;
+}
+
+void Smoother::scale_noise(double bearings, double odometry) {
+  graph_.scale_noise(bearings, odometry);
+  factor_.mark_all_stale();
 }
 
 }  // namespace azimuth
