@@ -7,7 +7,6 @@
 #include "slam/geometry/index.hpp"
 #include "slam/geometry/same_everywhere.hpp"
 #include "slam/perception/calibration/edge_circles.hpp"
-#include "slam/perception/calibration/edge_map.hpp"
 #include "slam/perception/image/gray.hpp"
 
 namespace azimuth {
