@@ -1,12 +1,11 @@
 // Landmarks that were mapped twice are merged; two landmarks close together stay two.
 
-#include "slam/planar/duplicates.hpp"
-
 #include <algorithm>
 #include <cstdio>
 #include <gtest/gtest.h>
 #include <optional>
 
+#include "slam/planar/planar_map.hpp"
 #include "tests/support/simulated_drive.hpp"
 
 namespace azimuth {
