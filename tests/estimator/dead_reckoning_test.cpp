@@ -1,7 +1,6 @@
-#include "slam/estimator/dead_reckoning.hpp"
-
 #include <gtest/gtest.h>
 
+#include "slam/estimator/estimator_stage.hpp"
 #include "slam/geometry/angle.hpp"
 
 namespace azimuth {
