@@ -9,7 +9,7 @@
 
 #include "base/unique_fd.hpp"
 #include "sim/azimuth_sim/camera_link.hpp"
-#include "sim/azimuth_sim/can_sender.hpp"
+#include "sim/azimuth_sim/can_base.hpp"
 #include "sim/azimuth_sim/console.hpp"
 #include "sim/azimuth_sim/line_input.hpp"
 #include "sim/azimuth_sim/options.hpp"

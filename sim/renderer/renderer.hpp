@@ -6,11 +6,10 @@
 #include <vector>
 
 #include "drivers/camera/frame.hpp"
-#include "sim/renderer/cylinder_pass.hpp"
 #include "sim/renderer/image_sensor.hpp"
+#include "sim/renderer/passes.hpp"
 #include "sim/renderer/ray_table.hpp"
 #include "sim/renderer/render_scene.hpp"
-#include "sim/renderer/room_pass.hpp"
 #include "slam/camera/camera_model.hpp"
 #include "slam/camera/camera_rig.hpp"
 #include "slam/camera/image_mask.hpp"

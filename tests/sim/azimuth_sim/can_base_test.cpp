@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "drivers/can/can_odometer.hpp"
-#include "sim/azimuth_sim/can_sender.hpp"
 #include "sim/azimuth_sim/simulation.hpp"
 #include "tests/drivers/can/shipped_dbc.hpp"
 

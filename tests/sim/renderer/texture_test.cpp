@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/renderer/room_pass.hpp"
+#include "sim/renderer/passes.hpp"
 
 namespace azimuth {
 namespace {
