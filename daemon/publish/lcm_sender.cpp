@@ -7,7 +7,7 @@
 #include <system_error>
 #include <utility>
 
-#include "drivers/lcm/lcm_route.hpp"
+#include "drivers/lcm/lcm_address.hpp"
 
 namespace azimuth {
 namespace {

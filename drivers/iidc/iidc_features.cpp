@@ -6,7 +6,6 @@
 #include <span>
 
 #include "drivers/iidc/iidc_setup.hpp"
-#include "drivers/iidc/iidc_setup_work.hpp"
 #include "drivers/iidc/iidc_text.hpp"
 
 namespace azimuth::iidc {

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "drivers/iidc/iidc_modes.hpp"
-#include "drivers/iidc/iidc_setup_work.hpp"
+#include "drivers/iidc/iidc_setup.hpp"
 
 namespace azimuth::iidc {
 namespace {

@@ -7,7 +7,6 @@
 #include <tuple>
 
 #include "drivers/iidc/iidc_modes.hpp"
-#include "drivers/iidc/iidc_setup_work.hpp"
 
 namespace azimuth::iidc {
 namespace {

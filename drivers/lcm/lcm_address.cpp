@@ -1,8 +1,13 @@
 #include "drivers/lcm/lcm_address.hpp"
 
 #include <arpa/inet.h>
+#include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include "base/unique_fd.hpp"
 
 namespace azimuth {
 namespace {
@@ -42,6 +47,16 @@ std::string text(const LcmAddress& address) {
   for (const std::uint8_t byte : address.group) text += std::to_string(byte) + '.';
   text.back() = ':';
   return text + std::to_string(address.port);
+}
+
+int route_error(const LcmAddress& address) {
+  const UniqueFd socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  if (!socket) return errno;
+  sockaddr_in to{};
+  to.sin_family = AF_INET;
+  to.sin_port = htons(address.port);
+  std::memcpy(&to.sin_addr, address.group.data(), sizeof to.sin_addr);
+  return ::connect(socket.get(), reinterpret_cast<const sockaddr*>(&to), sizeof to) == 0 ? 0 : errno;
 }
 
 }  // namespace azimuth

@@ -20,4 +20,8 @@ std::optional<LcmAddress> parse_lcm_url(std::string_view url);
 
 std::string text(const LcmAddress& address);
 
+/// The errno of the kernel's route to a group: 0 when there is a route, ENETUNREACH without a network for it. Sends
+/// nothing.
+int route_error(const LcmAddress& address);
+
 }  // namespace azimuth

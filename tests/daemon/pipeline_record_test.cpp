@@ -6,7 +6,7 @@
 
 #include "daemon/pipeline/pipeline.hpp"
 #include "drivers/storage/event_log.hpp"
-#include "drivers/storage/recorded_poses.hpp"
+#include "drivers/storage/recorded_outputs.hpp"
 #include "drivers/storage/run.hpp"
 #include "drivers/wire/messages.hpp"
 #include "tests/daemon/child_process.hpp"

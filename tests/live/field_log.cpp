@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "drivers/storage/map_codec.hpp"
-#include "drivers/storage/recorded_poses.hpp"
+#include "drivers/storage/recorded_outputs.hpp"
 #include "drivers/storage/session.hpp"
 #include "settings/configuration.hpp"
 #include "settings/configured_estimator.hpp"

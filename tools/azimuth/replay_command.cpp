@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/visible.hpp"
-#include "drivers/storage/recorded_poses.hpp"
+#include "drivers/storage/recorded_outputs.hpp"
 #include "drivers/wire/channels.hpp"
 #include "settings/configured_estimator.hpp"
 #include "tools/azimuth/command.hpp"

@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "drivers/storage/recorded_poses.hpp"
+#include "drivers/storage/recorded_outputs.hpp"
 #include "tools/replay/replay.hpp"
 
 namespace azimuth {

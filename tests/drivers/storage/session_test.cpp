@@ -5,7 +5,7 @@
 
 #include "drivers/storage/event_log.hpp"
 #include "drivers/storage/frame_reader.hpp"
-#include "drivers/storage/recorded_poses.hpp"
+#include "drivers/storage/recorded_outputs.hpp"
 #include "drivers/storage/run.hpp"
 #include "drivers/wire/channels.hpp"
 #include "drivers/wire/image_message.hpp"
