@@ -16,7 +16,7 @@
 #include "base/bytes.hpp"
 #include "slam/sample/stamp.hpp"
 #include "tools/bag/ros_definition.hpp"
-#include "tools/bag/unpack_budget.hpp"
+#include "tools/bag/unpacked_file.hpp"
 
 namespace azimuth {
 

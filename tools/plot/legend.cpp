@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "tools/plot/map_layers.hpp"
-#include "tools/plot/map_strokes.hpp"
 #include "tools/plot/map_view.hpp"
 
 namespace azimuth {

@@ -8,7 +8,6 @@
 #include "tools/plot/axes.hpp"
 #include "tools/plot/legend.hpp"
 #include "tools/plot/map_layers.hpp"
-#include "tools/plot/map_strokes.hpp"
 #include "tools/plot/map_view.hpp"
 
 namespace azimuth {

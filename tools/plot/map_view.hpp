@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include "tools/plot/extent.hpp"
+#include "tools/plot/axes.hpp"
 #include "tools/plot/map_picture.hpp"
 
 namespace azimuth {

@@ -1,5 +1,3 @@
-#include "tools/plot/extent.hpp"
-
 #include <cmath>
 #include <gtest/gtest.h>
 
