@@ -9,7 +9,6 @@
 
 #include "daemon/publish/lcm_sender.hpp"
 #include "daemon/publish/messages.hpp"
-#include "daemon/publish/pace_watch.hpp"
 #include "daemon/publish/publish_settings.hpp"
 #include "daemon/publish/status.hpp"
 #include "drivers/storage/session.hpp"

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "daemon/publish/messages.hpp"
-#include "daemon/publish/pace_watch.hpp"
 #include "daemon/publish/publisher.hpp"
+#include "daemon/publish/status.hpp"
 #include "tests/daemon/quiet.hpp"
 
 namespace azimuth {
