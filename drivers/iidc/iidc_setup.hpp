@@ -49,7 +49,7 @@ AxisChoice choose_axis(int size_px, int place_px, const AxisLimits& limits);
 std::uint32_t packet_bytes_for(double rate_hz, std::uint64_t image_bytes, std::uint32_t unit_bytes,
                                std::uint32_t max_bytes);
 
-// The state shared by the steps that set up a camera. Internal to drivers/iidc.
+// The state shared by the steps that set up a camera.
 
 /// A number in short form, e.g. "7.5" or "29.97".
 inline std::string short_number(double value) {

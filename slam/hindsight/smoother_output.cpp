@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "slam/hindsight/by_scale.hpp"
 #include "slam/hindsight/graph_map.hpp"
 #include "slam/hindsight/smoother_estimator.hpp"
 

@@ -5,7 +5,6 @@
 
 #include "slam/ekf/camera_offsets.hpp"
 #include "slam/geometry/index.hpp"
-#include "slam/hindsight/by_scale.hpp"
 #include "slam/hindsight/graph_map.hpp"
 
 namespace azimuth {

@@ -6,7 +6,7 @@
 
 #include "base/visible.hpp"
 #include "tools/azimuth/command.hpp"
-#include "tools/doctor/doctor.hpp"
+#include "tools/doctor/checks.hpp"
 
 namespace azimuth {
 namespace {

@@ -12,6 +12,9 @@
 
 namespace azimuth {
 
+/// Runs all checks, in the order in which a robot is set up.
+Findings examine(const Machine& machine, const Plan& plan);
+
 inline constexpr std::int64_t kInterfaceUp = 0x1;  ///< IFF_UP in the flags of an interface
 
 // Checks of one serial device (/dev/ttyUSB0, or a symbolic link to it).

@@ -10,7 +10,7 @@
 
 namespace azimuth {
 
-// Internal to tools/plot: appearance of the elements of a map, in the map and in the legend.
+// Appearance of the elements of a map, in the map and in the legend.
 
 // Colours of Okabe and Ito, which stay distinct for every kind of colour vision. Truth is grey to be less prominent.
 inline constexpr Colour kPaperColour{1.0, 1.0, 1.0};

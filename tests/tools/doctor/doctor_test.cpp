@@ -1,8 +1,7 @@
-#include "tools/doctor/doctor.hpp"
-
 #include <nlohmann/json.hpp>
 
 #include "tests/tools/doctor/fake_machine.hpp"
+#include "tools/doctor/checks.hpp"
 
 namespace azimuth {
 namespace {

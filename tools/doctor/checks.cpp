@@ -1,8 +1,6 @@
-#include "tools/doctor/doctor.hpp"
+#include "tools/doctor/checks.hpp"
 
 #include <utility>
-
-#include "tools/doctor/checks.hpp"
 
 namespace azimuth {
 namespace {
