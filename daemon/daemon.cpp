@@ -22,7 +22,7 @@
 #include "drivers/storage/session.hpp"
 #include "settings/rig.hpp"
 #include "settings/sample_sentence.hpp"
-#include "settings/toml_writing.hpp"
+#include "settings/section.hpp"
 
 namespace azimuth {
 namespace {

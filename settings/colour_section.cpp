@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <span>
 
-#include "settings/toml_writing.hpp"
+#include "settings/section.hpp"
 
 namespace azimuth {
 namespace {

@@ -6,7 +6,7 @@
 #include "settings/file_text.hpp"
 #include "settings/path_text.hpp"
 #include "settings/reader.hpp"
-#include "settings/toml_writing.hpp"
+#include "settings/section.hpp"
 
 namespace azimuth {
 namespace {

@@ -125,4 +125,12 @@ std::vector<Section*> pointers(std::vector<Section>& sections);
 /// Copies the value of every `given` key of `from` to the same key of `to`. Both sections come from one table.
 void copy_given(const Section& from, Section& to);
 
+/// Writes the `given` keys at their present values below the table's header, or all elements and keys of a list.
+/// Reading the text gives the same values.
+std::string toml_text(const Section& section);
+
+/// Returns every key of `sections` as TOML, commented out at its present value, with its help and range. The text is
+/// both the printed reference and the shipped configuration. Removing the `#` before a key gives a valid file.
+std::string reference(std::span<Section* const> sections);
+
 }  // namespace azimuth

@@ -7,7 +7,7 @@
 
 #include "settings/configured_estimator.hpp"
 #include "settings/rig.hpp"
-#include "settings/toml_writing.hpp"
+#include "settings/section.hpp"
 #include "tests/settings/member_count.hpp"
 
 namespace azimuth {
