@@ -16,7 +16,7 @@
 #include "tests/daemon/child_process.hpp"
 #include "tests/daemon/run_files.hpp"
 #include "tests/tools/ros2/dds_reader.hpp"
-#include "tools/ros2/bridge/status_diagnostics.hpp"
+#include "tools/ros2/bridge/bridge.hpp"
 
 namespace azimuth::test {
 namespace {

@@ -1,6 +1,7 @@
 #pragma once
 // Converts the LCM messages of azimuthd to ROS messages.
 
+#include <azimuth/status_t.hpp>
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -8,8 +9,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "drivers/lcm/lcm_sink.hpp"
+#include "drivers/ros/messages.hpp"
 #include "drivers/wire/messages.hpp"
 #include "drivers/wire/pieces.hpp"
 #include "tools/ros2/bridge/options.hpp"
@@ -78,5 +81,8 @@ class Bridge : public LcmSink {
   bool silent_ = false, told_other_sender_ = false, told_beyond_ = false, told_clock_ = false;
   std::optional<Clock::time_point> told_silence_;  // when silence was last reported by diagnostics
 };
+
+/// A daemon's status as ROS diagnostics: pose, samples and images, devices, and the process.
+std::vector<ros::DiagnosticStatus> diagnostics_of(const status_t& status);
 
 }  // namespace azimuth
