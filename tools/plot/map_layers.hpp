@@ -1,4 +1,6 @@
 #pragma once
+// Internal to tools/plot: the layers of a map, and the appearance of its elements, also in the legend.
+
 #include <Eigen/Core>
 #include <vector>
 
@@ -9,8 +11,6 @@
 #include "tools/plot/map_picture.hpp"
 
 namespace azimuth {
-
-// Appearance of the elements of a map, in the map and in the legend.
 
 // Colours of Okabe and Ito, which stay distinct for every kind of colour vision. Truth is grey to be less prominent.
 inline constexpr Colour kPaperColour{1.0, 1.0, 1.0};
