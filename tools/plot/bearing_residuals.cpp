@@ -8,7 +8,7 @@
 #include "slam/geometry/angle.hpp"
 #include "tools/plot/axes.hpp"
 #include "tools/plot/legend.hpp"
-#include "tools/plot/map_strokes.hpp"
+#include "tools/plot/map_layers.hpp"
 
 namespace azimuth {
 namespace {
