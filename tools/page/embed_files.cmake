@@ -13,7 +13,7 @@ list(LENGTH FILES count)
 file(WRITE ${OUT} "// Made by embed_files.cmake.
 #include <array>
 
-#include \"tools/page/page_files.hpp\"
+#include \"tools/page/html_page.hpp\"
 
 namespace azimuth {
 

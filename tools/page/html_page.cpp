@@ -7,8 +7,6 @@
 #include <set>
 #include <vector>
 
-#include "tools/page/page_files.hpp"
-
 namespace azimuth {
 namespace {
 

@@ -7,6 +7,15 @@
 
 namespace azimuth {
 
+/// An embedded file of this folder for browsers.
+struct PageFile {
+  std::string_view name;  ///< such as "map_view.js", "page.html"
+  std::string_view text;
+};
+
+/// All style sheets, all modules (each after its imports), and the page that loads them. Reentrant.
+std::span<const PageFile> page_files();
+
 /// A self-contained HTML page with the script modules, the style sheet and the data. `data` is a JSON object that may
 /// contain any text; `module` displays it and documents its members. The Content-Security-Policy of the page forbids
 /// loading anything and running other scripts. Reentrant.

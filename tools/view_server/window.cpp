@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <utility>
 
-#include "tools/page/page_files.hpp"
+#include "tools/page/html_page.hpp"
 #include "tools/view/looker.hpp"
 #include "tools/view_server/access.hpp"
 

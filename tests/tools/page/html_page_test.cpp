@@ -6,8 +6,6 @@
 #include <set>
 #include <vector>
 
-#include "tools/page/page_files.hpp"
-
 namespace azimuth {
 namespace {
 

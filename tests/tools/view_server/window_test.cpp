@@ -10,7 +10,7 @@
 
 #include "tests/tools/view_server/http_client.hpp"
 #include "tests/tools/view_server/served.hpp"
-#include "tools/page/page_files.hpp"
+#include "tools/page/html_page.hpp"
 
 namespace azimuth::test {
 namespace {
