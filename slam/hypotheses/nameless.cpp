@@ -23,9 +23,6 @@ constexpr std::size_t kBearingsKept = 16;
 // squared errors are 2 to 3 times as large as their covariances say. The same holds for drawn maps (VI.31).
 constexpr double kOverconfident = 3.0;
 constexpr PoseId kJudgementsInGraph = 10;  // the rig is judged when the graph has grown by one part of so many
-// A value is corrected once it is more probably wrong than right. What later evidence speaks against is taken back,
-// since the whole graph is judged anew.
-constexpr RigDemands kToCorrect{.log_odds = kLogOddsProbable};
 
 /// The motion of a robot whose odometry has these errors.
 Motion without(const Calibration& errors, Motion motion) {
@@ -147,7 +144,14 @@ void Nameless::judge_rig(Workers& workers) {
   RigEvidence<kCalibrations> evidence = beam_.best().smoother().rig_evidence();
   evidence.pull += evidence.information * corrected_;  // of the whole error
   const auto before = rig_errors_.doubted;
-  rig_errors_ = judged<kCalibrations>(evidence, said.cwiseAbs2(), if_wrong, before, kToCorrect);
+  // A wrong yaw shows in every image, long before the drive tells it apart from a wrong place of the camera. It is
+  // therefore also judged with the other values as the rig states them.
+  Calibration variance = Calibration::Zero();
+  variance[calibration::yaw] = said[calibration::yaw] * said[calibration::yaw];
+  auto suspected = before;
+  if (judged<kCalibrations>(evidence, variance, if_wrong, before, {}).is_doubted(calibration::yaw))
+    suspected[calibration::yaw] = true;
+  rig_errors_ = judged<kCalibrations>(evidence, said.cwiseAbs2(), if_wrong, suspected, {});
   const Calibration errors = rig_errors_.believable();
   fits_no_rig_ = (errors.cwiseAbs().array() > kPossible_sigmas * if_wrong.array()).any();
   if (fits_no_rig_) rig_errors_ = {.sigma = said};
