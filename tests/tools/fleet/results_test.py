@@ -23,6 +23,7 @@ import documents  # noqa: E402
 import numbers_kept  # noqa: E402
 import tables  # noqa: E402
 
+ENDS_LOST = 3     # the exit code of a replay that wrote its report, but ends with a lost robot
 STALE = "scripts/results makes the tables anew"
 NEAR = 1e-3     # relative; other processors may round differently, and no table shows as many digits
 SEVERAL = 3     # number of runs of one kind that are replayed here
@@ -90,8 +91,9 @@ class Replays(unittest.TestCase):
 
     def replayed(self, variant, settings, job):
         report = self.folder / f"{variant}-{job.key}.json"
-        subprocess.run([sys.argv[2], "replay", job.path, "--quiet", "--name", job.name, "--report", report, *corpus.options_of(settings, job)],
-                       cwd=self.folder, check=True)
+        done = subprocess.run([sys.argv[2], "replay", job.path, "--quiet", "--name", job.name, "--report", report, *corpus.options_of(settings, job)],
+                              cwd=self.folder, check=False)
+        self.assertIn(done.returncode, (0, ENDS_LOST), job.path)
         return numbers_kept.numbers_of(json.loads(report.read_text(encoding="utf-8")))
 
     def test_give_the_numbers_that_are_kept(self):
