@@ -32,9 +32,17 @@ struct Start {
   Rig rig;
   std::string rig_file = {};                   ///< empty: the run has no rig
   std::optional<MirrorSearch> by_images = {};  ///< the images gave the camera's model, since the run has no rig
-  std::optional<FisheyeCalibration> by_lamps =
-      {};  ///< of a camera that looks up at lamps: there is nothing else to find
+  /// The whole calibration of a camera that looks up at lamps.
+  std::optional<FisheyeCalibration> by_lamps = {};
 };
+
+/// Refuses what cannot be had below lamps, which tell all parts at once.
+void refuse_unfit_below_lamps(const RunCalibrationOptions& options) {
+  const std::filesystem::path& picture = options.outputs.picture;
+  if (!options.only.empty()) refuse("--only: below lamps, lens and heading are found at once");
+  if (!picture.empty() && plot_format(picture) != PlotFormat::png)
+    refuse(picture.string() + ": the name of a picture of pixels must end in .png");
+}
 
 LampSettings lamp_settings(const ReplayOptions& options) {
   FileResult<Configuration> configuration = read_configuration_file(options.config, options.overrides);
@@ -42,28 +50,30 @@ LampSettings lamp_settings(const ReplayOptions& options) {
   return configuration->perception.lamps;
 }
 
-Start start_below_lamps(const ReplayOptions& options, const Run& run, Rig rig) {
+Start start_below_lamps(const RunCalibrationOptions& options, const Run& run, Rig rig) {
+  refuse_unfit_below_lamps(options);
   std::string problem;
-  auto found = calibrate_fisheye(run, rig, lamp_settings(options), {}, problem);
-  if (!found) refuse(options.run.string() + ": " + problem);
+  auto found = calibrate_fisheye(run, rig, lamp_settings(options.run), {}, problem);
+  if (!found) refuse(options.run.run.string() + ": " + problem);
   return {.rig = std::move(rig), .rig_file = run.rig_file, .by_lamps = std::move(found)};
 }
 
 /// The images show a mirror, or lamps above a fisheye.
-Start start_by_images(const ReplayOptions& options, const Run& run, const OdometryRig& odometry) {
+Start start_by_images(const RunCalibrationOptions& options, const Run& run, const OdometryRig& odometry) {
   try {
-    RigByMirror found = rig_by_mirror(options.run, options.quiet);
+    RigByMirror found = rig_by_mirror(options.run.run, options.run.quiet);
     return {.rig = std::move(found.rig), .by_images = std::move(found.search)};
   } catch (const CommandError& no_mirror) {
     if (no_mirror.code != kFailure) throw;
     std::string problem;
-    auto found = calibrate_unknown_fisheye(run, odometry, lamp_settings(options), problem);
+    auto found = calibrate_unknown_fisheye(run, odometry, lamp_settings(options.run), problem);
     if (!found) fail(no_mirror.message + "; nor a fisheye below lamps: " + problem);
+    refuse_unfit_below_lamps(options);
     return {.rig = found->rig, .by_lamps = std::move(found)};
   }
 }
 
-Start starting_rig(const ReplayOptions& options, const Run& run) {
+Start starting_rig(const RunCalibrationOptions& options, const Run& run) {
   if (!run.rig_toml.empty()) {
     FileResult<Rig> read = read_rig(run.rig_toml, run.rig_file);
     if (!read) refuse(read.error());
@@ -270,10 +280,7 @@ FoundValue row_of(const MirrorSearch& search) {
 
 /// Lamps tell the lens, the camera's heading and its tilt at once.
 void calibrate_by_lamps(const RunCalibrationOptions& options, const Run& run, const Start& start) {
-  if (!options.only.empty()) refuse("--only: below lamps, lens and heading are found at once");
   const std::filesystem::path& picture = options.outputs.picture;
-  if (!picture.empty() && plot_format(picture) != PlotFormat::png)
-    refuse(picture.string() + ": the name of a picture of pixels must end in .png");
   const FisheyeCalibration& found = *start.by_lamps;
   if (!options.run.quiet) print_fisheye(run, found, {});
   const std::string text = "# Made by azimuth calibrate from " + run.name + ".\n\n" + rig_text(found.rig);
@@ -325,7 +332,7 @@ void calibrate_by_run(const RunCalibrationOptions& options) {
   LogOptions log = options.run.log;
   log.rig_may_come_later = true;
   const Run images = load_run_or_refuse(options.run.run, log);
-  Start start = starting_rig(options.run, images);
+  Start start = starting_rig(options, images);
   if (start.by_lamps) return calibrate_by_lamps(options, images, start);
   const Rig said = start.rig;
   RecordedDrive recorded = recorded_drive(options.run, NamedBy::eye, start.rig);
