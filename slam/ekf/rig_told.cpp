@@ -25,7 +25,7 @@ RigTold told_of_rig(const JointState& state) {
   std::array<bool, considered::kCount> corrected{};
   for (int i = 0; i < considered::kCount; ++i) corrected[static_cast<std::size_t>(i)] = state.believed()(i) != 0.0;
   return judged<considered::kCount>(state.told_of_considered(), state.considered(), kIfWrong, corrected,
-                                    {.sigmas = kCertainOfRig_sigmas});
+                                    kCertainOfRig_sigmas);
 }
 
 /// Removes the prior of the lag from the posterior.

@@ -51,12 +51,6 @@ struct RigEvidence {
   Eigen::Matrix<double, N, 1> pull = Eigen::Matrix<double, N, 1>::Zero();
 };
 
-/// What the evidence against a value of the rig must exceed before the value is corrected.
-struct RigDemands {
-  double log_odds = kLogOddsToDoubt;
-  double sigmas = 0.0;  ///< the error in standard deviations of the evidence alone
-};
-
 /// The judgement of a rig by its evidence.
 template <int N>
 struct RigErrors {
@@ -86,11 +80,12 @@ struct RigErrors {
 /// Tests the rig for contradictions: one value after the other, the most contradicted first, since one wrong value
 /// makes others seem wrong (mathematics VI.33, VI.35). `variance` are the rig's own variances, 0: exact. `if_wrong` are
 /// the standard deviations of a wrong rig; values with no larger one are never doubted. A value that is already
-/// corrected for (`before`) stays in doubt until its error is less likely than the rig.
+/// corrected for (`before`) stays in doubt until its error is less likely than the rig. An error below `certain_sigmas`
+/// standard deviations of the evidence alone is no contradiction.
 template <int N>
 RigErrors<N> judged(const RigEvidence<N>& evidence, const Eigen::Matrix<double, N, 1>& variance,
                     const Eigen::Matrix<double, N, 1>& if_wrong, const std::array<bool, N>& before,
-                    const RigDemands& demands) {
+                    double certain_sigmas = 0.0) {
   using Vector = Eigen::Matrix<double, N, 1>;
   using Matrix = Eigen::Matrix<double, N, N>;
   constexpr double kExact = 0.0;
@@ -144,7 +139,7 @@ RigErrors<N> judged(const RigEvidence<N>& evidence, const Eigen::Matrix<double, 
       const double wrong = 1.0 / (1.0 + std::exp(kLogOddsProbable - log_odds));
       const double error_if_wrong = tells ? pull / (alone + 1.0 / (if_wrong(i) * if_wrong(i))) : 0.0;
       errors.left(i) = variance(i) + wrong * error_if_wrong * error_if_wrong;
-      const bool is_enough = log_odds > demands.log_odds && std::abs(pull) > demands.sigmas * std::sqrt(alone) &&
+      const bool is_enough = log_odds > kLogOddsToDoubt && std::abs(pull) > certain_sigmas * std::sqrt(alone) &&
                              alone * std::pow(kToldWithin * if_wrong(i), 2) > 1.0;
       if (log_odds <= most || !(before[static_cast<std::size_t>(i)] || is_enough)) continue;
       most = log_odds;

@@ -149,9 +149,9 @@ void Nameless::judge_rig(Workers& workers) {
   Calibration variance = Calibration::Zero();
   variance[calibration::yaw] = said[calibration::yaw] * said[calibration::yaw];
   auto suspected = before;
-  if (judged<kCalibrations>(evidence, variance, if_wrong, before, {}).is_doubted(calibration::yaw))
+  if (judged<kCalibrations>(evidence, variance, if_wrong, before).is_doubted(calibration::yaw))
     suspected[calibration::yaw] = true;
-  rig_errors_ = judged<kCalibrations>(evidence, said.cwiseAbs2(), if_wrong, suspected, {});
+  rig_errors_ = judged<kCalibrations>(evidence, said.cwiseAbs2(), if_wrong, suspected);
   const Calibration errors = rig_errors_.believable();
   fits_no_rig_ = (errors.cwiseAbs().array() > kPossible_sigmas * if_wrong.array()).any();
   if (fits_no_rig_) rig_errors_ = {.sigma = said};
